@@ -26,7 +26,7 @@
 #include <thalweg/core/run/memory.hpp>
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/io/gdal/driver.hpp>
-#include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/report/report.hpp>
 #include <thalweg/solver/opencl/devices.hpp>
 
 #include "commands/commands.hpp"
@@ -183,7 +183,7 @@ void describe_program(CLI::App& app) {
     app.formatter_fn([](CLI::App const* of, std::string const&, CLI::AppFormatMode) { return help_text(*of); });
     app.set_help_flag("-h,--help", "Show this help.");
     app.set_version_flag("--version",
-                         fmt::format("thalweg {} ({}, {})", pipeline::version(), io::gdal_version(), mpi_version()),
+                         fmt::format("thalweg {} ({}, {})", report::version(), io::gdal_version(), mpi_version()),
                          "Show the versions of thalweg, of GDAL and of MPI.");
     app.require_subcommand(1);
     app.fallthrough(false);
@@ -260,7 +260,7 @@ void prepare(Session& session, Terminal& terminal) {
         session.findings.push_back(finding);
         bool const is_printed = session.verbose || finding.kind.row().printed == Printed::always;
         if (is_printed && session.progress) {
-            terminal.data(fmt::format("{{\"finding\": {}}}", pipeline::finding_json(finding)));
+            terminal.data(fmt::format("{{\"finding\": {}}}", report::finding_json(finding)));
         } else if (is_printed) {
             terminal.line(in_tone(finding));
         }
@@ -269,7 +269,7 @@ void prepare(Session& session, Terminal& terminal) {
 
 int work(CLI::App const& chosen, Command const& command, Session& session, Terminal& terminal) {
     if (session.verbose) {
-        session.run.say(fmt::format("thalweg {} ({})", pipeline::version(), io::gdal_version()));
+        session.run.say(fmt::format("thalweg {} ({})", report::version(), io::gdal_version()));
     }
     if (session.run.threads != session.threads) {
         session.run.tell("threads", "one: the system lets no more start");

@@ -21,9 +21,3 @@
 #include <thalweg/pipeline/ensemble/ensemble.hpp>
 #include <thalweg/pipeline/ensemble/make_members.hpp>
 #include <thalweg/pipeline/ensemble/ranks.hpp>
-#include <thalweg/pipeline/report/landmarks.hpp>
-#include <thalweg/pipeline/report/live_page.hpp>
-#include <thalweg/pipeline/report/page.hpp>
-#include <thalweg/pipeline/report/pictures.hpp>
-#include <thalweg/pipeline/report/read_scene.hpp>
-#include <thalweg/pipeline/report/report.hpp>

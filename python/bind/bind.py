@@ -30,6 +30,7 @@ MODULES = [
     "io",
     "recipe",
     "make",
+    "report",
     "pipeline",
 ]
 

@@ -529,7 +529,7 @@ BadParameter
                  });
 }
 
-void define_pipeline_by_hand(py::module_& module) {
+void define_report_by_hand(py::module_& module) {
     add_function(module, "report_json", R"words(report_json(made)
 --
 
@@ -546,7 +546,7 @@ str
 )words",
                  [](Args& in) {
                      Held<make::Made> const made(in.required("made"), in.place("made"));
-                     return in.call([&] { return pipeline::write_report(*made, {}); });
+                     return in.call([&] { return report::write_report(*made, {}); });
                  });
 }
 

@@ -58,7 +58,7 @@ void define_io_by_hand(py::module_& module);
 /// recipe.set_key, unset_key
 void define_recipe_by_hand(py::module_& module);
 
-/// pipeline.report_json
-void define_pipeline_by_hand(py::module_& module);
+/// report.report_json
+void define_report_by_hand(py::module_& module);
 
 } // namespace thalweg::python

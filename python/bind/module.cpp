@@ -3,7 +3,7 @@
 #include "by_hand.hpp"
 
 #include <thalweg/io/gdal/access.hpp>
-#include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/report/report.hpp>
 
 namespace thalweg::python {
 
@@ -24,6 +24,7 @@ THALWEG_OF_MODULE(draw)
 THALWEG_OF_MODULE(io)
 THALWEG_OF_MODULE(recipe)
 THALWEG_OF_MODULE(make)
+THALWEG_OF_MODULE(report)
 THALWEG_OF_MODULE(pipeline)
 #undef THALWEG_OF_MODULE
 
@@ -36,7 +37,7 @@ struct Module {
     void (*define)(py::module_&);
 };
 
-constexpr std::array<Module, 14> modules = {{
+constexpr std::array<Module, 15> modules = {{
     {"geometry", "Lines and points: intersections, TINs, Voronoi diagrams, medial lines.", declare_geometry,
      define_geometry},
     {"solver", "Values of the solvers that stages take.", declare_solver, define_solver},
@@ -54,6 +55,7 @@ constexpr std::array<Module, 14> modules = {{
     {"recipe", "Recipes, their files, and what they set.", declare_recipe, define_recipe},
     {"terrain", "The stages of a terrain: its rivers, their heights, the surface, its water, what is measured of it.",
      declare_make, define_make},
+    {"report", "The folder of a terrain: files, report and pictures.", declare_report, define_report},
     {"pipeline", "Whole terrains, and the commands of the program.", declare_pipeline, define_pipeline},
 }};
 
@@ -73,7 +75,7 @@ PYBIND11_MODULE(_core, module) {
     declare_core(module);
     define_core(module);
     add_function(module, "version", "version()\n--\n\nGives the version of thalweg.\n\nReturns\n-------\nstr\n",
-                 [](Args& in) { return in.call([] { return thalweg::pipeline::version(); }); });
+                 [](Args& in) { return in.call([] { return thalweg::report::version(); }); });
     py::list names;
     std::vector<py::module_> made;
     for (Module const& one : modules) {
@@ -91,7 +93,7 @@ PYBIND11_MODULE(_core, module) {
     }
     define_io_by_hand(made[10]);
     define_recipe_by_hand(made[11]);
-    define_pipeline_by_hand(made[13]);
+    define_report_by_hand(made[13]);
     module.attr("MODULES") = py::tuple(names);
     py::list values;
     for (auto const& [name, value] : module.attr("__dict__").cast<py::dict>()) {

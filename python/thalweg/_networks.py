@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from thalweg import _core, flow, io, pipeline
+from thalweg import _core, flow, io, report as reports
 from thalweg import network as networks
 from thalweg._raster import Raster, crs_text, say, to_core
 from thalweg._show import bad_input, need
@@ -104,7 +104,7 @@ def to_geodataframe(network: _core.StreamNetwork | _core.ElevatedNetwork | flow.
         path = os.path.join(folder, "network.gpkg")
         made = getattr(network, "made", None)
         if made is not None and crs is None:
-            pipeline.write_rivers(made, path)
+            reports.write_rivers(made, path)
         else:
             io.write_geopackage(elevated, path, orders=parts.orders, areas=parts.areas, crs=named)
         frame = gpd.read_file(path, layer=layer)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from thalweg import _core, _networks, _show, recipe as recipes, terrain as terrains, pipeline
+from thalweg import _core, _networks, _show, recipe as recipes, terrain as terrains, report as reports
 from thalweg import flow as flows
 from thalweg._raster import Raster
 from thalweg._show import bad_input
@@ -172,7 +172,7 @@ class Terrain:
     @functools.cached_property
     def report(self) -> dict[str, Any]:
         """Content of report.json."""
-        report: dict[str, Any] = json.loads(pipeline.report_json(self.made))
+        report: dict[str, Any] = json.loads(reports.report_json(self.made))
         return report
 
     @property
@@ -212,7 +212,7 @@ class Terrain:
         IoError
             When it cannot be written.
         """
-        return pipeline.write_terrain(self.made, os.fspath(folder), existing="replace" if overwrite else "refuse")
+        return reports.write_terrain(self.made, os.fspath(folder), existing="replace" if overwrite else "refuse")
 
     def to_xarray(self) -> xarray.DataArray:
         """Return the DEM as xarray has it; see Raster.to_xarray.
@@ -281,7 +281,7 @@ class Terrain:
 
     @functools.cached_property
     def _map(self) -> bytes | None:
-        return pipeline.draw_map(self.made, width_px=MAP_WIDTH).bytes if self.has_dem else None
+        return reports.draw_map(self.made, width_px=MAP_WIDTH).bytes if self.has_dem else None
 
     def _repr_html_(self) -> str:
         return _show.html_of(self._map, self._words())

@@ -51,7 +51,7 @@ PLANTED = [
      "a::B is also defined in " + NETWORK),
     ("lib/thalweg/make/rivers.cpp", 'throw BadInput("network.prune: too long");', "names its own module first"),
     ("tools/commands/make.cpp", 'say("io.read_dem: x");', "names its own module first"),
-    ("lib/thalweg/make/rivers.cpp", "#include <thalweg/pipeline/report/report.hpp>", "dependencies point one way"),
+    ("lib/thalweg/make/rivers.cpp", "#include <thalweg/report/report.hpp>", "dependencies point one way"),
     ("lib/thalweg/recipe/key.hpp", "#include <thalweg/make/make.hpp>", "dependencies point one way"),
     ("lib/thalweg/make/rivers.cpp", "void fill(Terrain& terrain, Run const& run);", "Terrain&: values that flow"),
     ("tools/commands/make.cpp", "void set(int key,\n         recipe::Recipe& recipe) {", "Recipe&: values that flow"),
@@ -83,8 +83,8 @@ INNOCENT = [
     ("lib/thalweg/geometry/crossings.cpp", "#include <CGAL/Arrangement_2.h>"),
     ("lib/thalweg/solver/spectral/fft.cpp", "#include <unsupported/Eigen/FFT>"),
     ("lib/thalweg/make/terrain.cpp", "#include <thalweg/surface/dilation/dilation.hpp>\n#include <thalweg/network/vectorise/vectorise.hpp>"),
-    ("lib/thalweg/pipeline/report/report.cpp", "#include <thalweg/recipe/recipe.hpp>\n"
-     "#include <thalweg/make/file_values.hpp>\n#include <thalweg/pipeline/report/pictures.hpp>"),
+    ("lib/thalweg/report/report.cpp", "#include <thalweg/recipe/recipe.hpp>\n"
+     "#include <thalweg/make/file_values.hpp>\n#include <thalweg/report/pictures.hpp>"),
     ("lib/thalweg/make/rivers.cpp", "Terrain f(Terrain terrain, Recipe const& recipe, Plan&& plan);"),
     ("lib/thalweg/recipe/recipe.hpp", "void set_key(Recipe& recipe, std::string const& assignment);"),
     ("lib/thalweg/draw/map.cpp", "#include <cairo.h>\ndouble a = std::cos(b);"),

@@ -11,13 +11,14 @@
 #include <support.hpp>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/report/report.hpp>
 
 namespace make_test {
 
 using namespace thalweg;
 using namespace thalweg::recipe;
 using namespace thalweg::make;
+using namespace thalweg::report;
 using namespace thalweg::pipeline;
 
 namespace {

@@ -18,8 +18,8 @@
 
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/make/make.hpp>
-#include <thalweg/pipeline/report/report.hpp>
 #include <thalweg/recipe/make_input.hpp>
+#include <thalweg/report/report.hpp>
 
 #include <make/made.hpp>
 
@@ -28,6 +28,7 @@ namespace raster_test {
 using namespace thalweg;
 using namespace thalweg::recipe;
 using namespace thalweg::make;
+using namespace thalweg::report;
 using namespace thalweg::pipeline;
 
 namespace {

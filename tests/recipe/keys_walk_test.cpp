@@ -18,14 +18,15 @@
 #include <support.hpp>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/pipeline/report/report.hpp>
 #include <thalweg/recipe/recipe_keys.hpp>
+#include <thalweg/report/report.hpp>
 
 namespace keys_walk_test {
 
 using namespace thalweg;
 using namespace thalweg::recipe;
 using namespace thalweg::make;
+using namespace thalweg::report;
 using namespace thalweg::pipeline;
 
 namespace {

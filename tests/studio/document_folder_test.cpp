@@ -19,7 +19,7 @@
 
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/pipeline/commands/make.hpp>
-#include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/report/report.hpp>
 #include <thalweg/studio/internal/journal.hpp>
 
 namespace document_folder_test {
@@ -206,7 +206,7 @@ TEST_F(DocumentFolders, WhatMakeMakesOfTheRecipeIsTheSame) {
     document.edit({"", {SetKey{"network.heights", "graded"}, SetKey{"seed", "3"}}});
     pipeline::run_make({at("d/recipe.toml"), at("by_make")});
     make::Made const shown = make::make(document.document().recipe);
-    pipeline::write_terrain(shown, at("shown"));
+    report::write_terrain(shown, at("shown"));
     for (std::string const name : {"dem.tif", "network.gpkg", "network.tif", "recipe.toml"}) {
         EXPECT_FALSE(bytes_of(at("by_make/" + name)).empty()) << name;
         EXPECT_EQ(bytes_of(at("by_make/" + name)), bytes_of(at("shown/" + name))) << name;

@@ -41,7 +41,7 @@ Parts parts_of(std::string const& message) {
 }
 
 Shown shown(Raster<float> const& dem) {
-    return {dem.grid(), true, *pipeline::live_heights(dem, dem.grid()), pipeline::Sea{3.0, true}};
+    return {dem.grid(), true, *report::live_heights(dem, dem.grid()), report::Sea{3.0, true}};
 }
 
 std::string wrong_with(std::string const& request) {

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <thalweg/pipeline/report/report.hpp>
 #include <thalweg/recipe/recipe.hpp>
+#include <thalweg/report/report.hpp>
 
 #include "commands/commands.hpp"
 #include "help/help.hpp"
@@ -196,7 +196,7 @@ std::string bash_completion(CommandHelp const& program) {
                        "_thalweg_offers() {{ # the options of a command\n    case $1 in\n{}    esac\n}}\n\n"
                        "_thalweg_takes() {{ # what stands behind an option, or at a place, of a command\n"
                        "    takes=nothing\n    case $1 in\n    'thalweg 1') takes='words {}' ;;\n{}    esac\n}}\n{}",
-                       pipeline::version(), keys, values, offers, names, takes, bash_machine);
+                       report::version(), keys, values, offers, names, takes, bash_machine);
 }
 
 /// Text in single quotes for fish.
@@ -273,7 +273,7 @@ std::string fish_completion(CommandHelp const& program) {
                        "function __thalweg_settings -d 'KEY=VALUE of a recipe'\n"
                        "    set -l setting (string replace -r '^--[a-z-]+=' '' -- (commandline -ct))\n"
                        "    switch \"$setting\"\n{}        case '*'\n{}    end\nend\n{}\n{}",
-                       pipeline::version(), values, keys, fish_machine, lines);
+                       report::version(), values, keys, fish_machine, lines);
 }
 
 /// An action of _arguments.
@@ -381,7 +381,7 @@ std::string zsh_completion(CommandHelp const& program) {
                        "typeset -ga thalweg_commands thalweg_options thalweg_keys\n"
                        "thalweg_commands=(\n{})\nthalweg_options=(\n{})\nthalweg_keys=(\n{})\n\n"
                        "_thalweg_values() {{ # what a key of a recipe may be\n    case $1 in\n{}    esac\n}}\n\n{}{}",
-                       pipeline::version(), commands, options, keys, values, functions,
+                       report::version(), commands, options, keys, values, functions,
                        std::string(zsh_machine).substr(1));
 }
 

@@ -12,7 +12,7 @@
 #include <thalweg/io/network/schema.hpp>
 #include <thalweg/io/network/write_network.hpp>
 #include <thalweg/pipeline/commands/convert.hpp>
-#include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/report/report.hpp>
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
@@ -59,7 +59,7 @@ nlohmann::ordered_json json_of(pipeline::ConvertResult const& made) {
                                 {"divergences", made.divergences},
                                 {"heights", made.heights},
                                 {"areas", made.areas}};
-    json["findings"] = nlohmann::ordered_json::parse(pipeline::findings_json(made.findings));
+    json["findings"] = nlohmann::ordered_json::parse(report::findings_json(made.findings));
     for (auto& one : json["findings"]) {
         one["where"] = {one.value("x", 0.0), one.value("y", 0.0)}; // its name in earlier versions
     }

@@ -20,7 +20,7 @@
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/pipeline/commands/ensemble.hpp>
 #include <thalweg/pipeline/commands/make.hpp>
-#include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/report/report.hpp>
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
@@ -47,7 +47,7 @@ std::string as_json(recipe::Forecast const& forecast) {
     json["cells"] = forecast.cells;
     json["memory_bytes"] = forecast.memory_bytes;
     json["seconds"] = forecast.seconds;
-    json["findings"] = nlohmann::ordered_json::parse(pipeline::findings_json(forecast.findings));
+    json["findings"] = nlohmann::ordered_json::parse(report::findings_json(forecast.findings));
     return json.dump(2) + "\n";
 }
 
@@ -151,7 +151,7 @@ int make_ensemble(MakeOptions& options, Session& session) {
         json["with_warnings"] = made.warned;
         session.run.tell("table", toned(Tone::name, made.table, stderr));
     }
-    json["findings"] = nlohmann::ordered_json::parse(pipeline::findings_json(made.findings));
+    json["findings"] = nlohmann::ordered_json::parse(report::findings_json(made.findings));
     fmt::print("{}\n", session.json ? json.dump(2) : params.output);
     if (session.quiet && made.failed + made.checks_failed > 0) { // no exit code without a word
         write_to_stderr(fmt::format("error: of {} members {} could not be made and {} fail a check: see {}\n",

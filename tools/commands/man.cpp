@@ -13,8 +13,8 @@
 #include <fmt/ranges.h>
 
 #include <thalweg/io/files/files.hpp>
-#include <thalweg/pipeline/report/report.hpp>
 #include <thalweg/recipe/recipe.hpp>
+#include <thalweg/report/report.hpp>
 
 #include "commands/commands.hpp"
 #include "help/help.hpp"
@@ -125,8 +125,8 @@ std::string heading(std::string const& name, char number, std::string const& man
     std::string capitals = name;
     std::transform(capitals.begin(), capitals.end(), capitals.begin(),
                    [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-    return fmt::format(".TH {} {} \"\" \"thalweg {}\" \"{}\"\n.nh\n.ad l\n", roff(capitals), number,
-                       pipeline::version(), manual);
+    return fmt::format(".TH {} {} \"\" \"thalweg {}\" \"{}\"\n.nh\n.ad l\n", roff(capitals), number, report::version(),
+                       manual);
 }
 
 /// A sentence as in NAME: "make a terrain".

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/report/report.hpp>
 
 namespace thalweg::tools {
 
@@ -16,7 +16,7 @@ void print_result(Session const& session, nlohmann::ordered_json const& json, st
     if (session.json) {
         nlohmann::ordered_json whole = json;
         if (!whole.contains("findings")) {
-            whole["findings"] = nlohmann::ordered_json::parse(pipeline::findings_json(session.findings));
+            whole["findings"] = nlohmann::ordered_json::parse(report::findings_json(session.findings));
         }
         fmt::print("{}\n", whole.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
         return;

@@ -13,7 +13,7 @@
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/pipeline/commands/stats.hpp>
-#include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/report/report.hpp>
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
@@ -114,7 +114,7 @@ int stats(pipeline::StatsParams const& params, Session const& session) {
     }
     if (found.lines) {
         if (session.json) {
-            print_result(session, nlohmann::ordered_json::parse(pipeline::line_laws_json(*found.lines)), {}, -1);
+            print_result(session, nlohmann::ordered_json::parse(report::line_laws_json(*found.lines)), {}, -1);
         } else {
             print_line_laws(*found.lines);
         }
@@ -123,8 +123,8 @@ int stats(pipeline::StatsParams const& params, Session const& session) {
     measure::Statistics const& s = found.statistics;
     if (session.json) {
         print_result(session,
-                     nlohmann::ordered_json::parse(pipeline::statistics_json(s, found.laws ? &*found.laws : nullptr,
-                                                                             found.relief ? &*found.relief : nullptr)),
+                     nlohmann::ordered_json::parse(report::statistics_json(s, found.laws ? &*found.laws : nullptr,
+                                                                           found.relief ? &*found.relief : nullptr)),
                      {}, -1);
         return Exit::done;
     }

@@ -136,7 +136,7 @@ void Engine::run(Job const& job, std::stop_token const& stop) {
             }
             if (made->terrain.surface) {
                 tell(watcher_.heights, job,
-                     Heights{made->terrain.surface->dem, made->terrain.grid, pipeline::sea_of(made->terrain), true});
+                     Heights{made->terrain.surface->dem, made->terrain.grid, report::sea_of(made->terrain), true});
             }
         } else {
             auto const fresh = std::make_shared<make::Made>();
@@ -150,7 +150,7 @@ void Engine::run(Job const& job, std::stop_token const& stop) {
                 run.check();
                 tell(watcher_.heights, job,
                      Heights{dem, job.recipe.network ? fresh->planform.grid : *fresh->plan.grid,
-                             pipeline::sea_of(fresh->plan, fresh->planform), is_finished});
+                             report::sea_of(fresh->plan, fresh->planform), is_finished});
             };
             fresh->terrain = make::make_terrain(fresh->plan, fresh->planform, run);
             run.preview = nullptr;

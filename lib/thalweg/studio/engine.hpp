@@ -19,8 +19,8 @@
 #include <thalweg/core/run/kept.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/make/make.hpp>
-#include <thalweg/pipeline/report/landmarks.hpp>
 #include <thalweg/recipe/recipe.hpp>
+#include <thalweg/report/landmarks.hpp>
 
 namespace thalweg::studio {
 
@@ -35,10 +35,10 @@ struct Job {
 
 /// A terrain while it is made.
 struct Heights {
-    Raster<float> const& dem;         ///< [m] coarse first
-    Grid const& grid;                 ///< of the result
-    std::optional<pipeline::Sea> sea; ///< that its cells without heights are
-    bool is_finished;                 ///< the DEM is the result
+    Raster<float> const& dem;       ///< [m] coarse first
+    Grid const& grid;               ///< of the result
+    std::optional<report::Sea> sea; ///< that its cells without heights are
+    bool is_finished;               ///< the DEM is the result
 };
 
 /// Hears what becomes of jobs, one call at a time, on the engine's thread. Each may be empty.

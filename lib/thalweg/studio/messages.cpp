@@ -16,8 +16,8 @@
 #include <thalweg/core/bounded_json.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/refuse.hpp>
-#include <thalweg/pipeline/report/report.hpp>
 #include <thalweg/recipe/recipe.hpp>
+#include <thalweg/report/report.hpp>
 
 namespace thalweg::studio {
 namespace {
@@ -312,7 +312,7 @@ std::string page_parameters(std::string const& folder) {
                         {"used_by", key.used_by},
                         {"is_file", key.is_file}});
     }
-    return text_of({{"version", pipeline::version()}, {"folder", folder}, {"keys", std::move(keys)}});
+    return text_of({{"version", report::version()}, {"folder", folder}, {"keys", std::move(keys)}});
 }
 
 std::string document_message(Document const& document, History const& history, std::string const& command) {
@@ -371,10 +371,10 @@ std::string findings_message(Job const& job, std::vector<Finding> const& finding
                     {"job", job.number},
                     {"revision", job.revision},
                     {"count", findings.size()},
-                    {"list", ordered_json::parse(pipeline::findings_json(printed))}});
+                    {"list", ordered_json::parse(report::findings_json(printed))}});
 }
 
-std::string cluster_message(Job const& job, std::optional<pipeline::ClusterArms> const& arms) {
+std::string cluster_message(Job const& job, std::optional<report::ClusterArms> const& arms) {
     if (!arms) {
         return text_of({{"type", "cluster"}, {"job", job.number}, {"width", 0}, {"height", 0}, {"arms", ""}});
     }
@@ -464,7 +464,7 @@ std::string drawing_message(Drawing const& drawing, std::int64_t revision, bool 
                     {"revision", revision},
                     {"kind", is_drawn ? "drawn" : "shown"},
                     {"branching", drawing.has_side_streams},
-                    {"grid", ordered_json::parse(pipeline::grid_json(grid))},
+                    {"grid", ordered_json::parse(report::grid_json(grid))},
                     {"rivers", std::move(rivers)},
                     {"coasts", std::move(coasts)},
                     {"lakes", std::move(lakes)},
@@ -525,14 +525,14 @@ std::string heights_message(Job const& job, Shown const& shown, Shown const* bef
                                 {"job", job.number},
                                 {"revision", job.revision},
                                 {"level", shown.is_finished ? "full" : "coarse"},
-                                {"grid", ordered_json::parse(pipeline::grid_json(shown.grid))},
+                                {"grid", ordered_json::parse(report::grid_json(shown.grid))},
                                 {"width", values.width()},
                                 {"height", values.height()},
                                 {"cells", shown.heights.cells},
                                 {"min", shown.heights.min},
                                 {"max", shown.heights.max},
                                 {"nodata", shown.heights.nodata},
-                                {"sea", ordered_json::parse(pipeline::sea_json(shown.sea))},
+                                {"sea", ordered_json::parse(report::sea_json(shown.sea))},
                                 {"tile", tile},
                                 {"tiles", tiles}});
     head.append((4 - head.size() % 4) % 4, ' ');

@@ -18,8 +18,8 @@
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/files/files.hpp>
-#include <thalweg/pipeline/report/live_page.hpp>
-#include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/report/live_page.hpp>
+#include <thalweg/report/report.hpp>
 #include <thalweg/studio/document_folder.hpp>
 #include <thalweg/studio/drawing.hpp>
 #include <thalweg/studio/drawing_files.hpp>
@@ -98,8 +98,8 @@ private:
 
     std::optional<serve::Answer> answer(std::string const& path) {
         if (path.empty()) {
-            pipeline::LivePage page = pipeline::live_page(recipe::title_of(folder_.document().recipe),
-                                                          page_parameters(fs::absolute(params_.folder).string()));
+            report::LivePage page = report::live_page(recipe::title_of(folder_.document().recipe),
+                                                      page_parameters(fs::absolute(params_.folder).string()));
             return serve::Answer{std::move(page.html), "text/html; charset=utf-8", std::move(page.policy)};
         }
         constexpr std::string_view files = "files/";
@@ -378,7 +378,7 @@ private:
         run.stop = stop;
         run.threads = params_.threads;
         Written written;
-        written.files = pipeline::write_terrain(*made, folder.string(), io::Existing::replace, run);
+        written.files = report::write_terrain(*made, folder.string(), io::Existing::replace, run);
         written.folder = fs::absolute(folder).lexically_normal().string();
         refuse_if<BadInput>(!is_whole && std::ranges::find(written.files, file) == written.files.end(),
                             "studio.export: make writes no {} of this recipe", file);
@@ -434,8 +434,8 @@ private:
     void show_rivers(Job const& job, recipe::Plan const& plan, make::Planform const& planform, Run const& run) {
         constexpr std::int64_t side = 256;
         std::string scene = scene_message(
-            job, "rivers", pipeline::live_scene(pipeline::rivers_to_be(plan, planform), job.toml, command(), run));
-        std::string cluster = cluster_message(job, pipeline::cluster_arms(plan, side, run));
+            job, "rivers", report::live_scene(report::rivers_to_be(plan, planform), job.toml, command(), run));
+        std::string cluster = cluster_message(job, report::cluster_arms(plan, side, run));
         ShownRivers shown{job.toml,
                           planform.grid,
                           planform.network,
@@ -453,7 +453,7 @@ private:
     }
 
     void show_heights(Job const& job, Heights const& given) {
-        std::optional<pipeline::LiveHeights> heights = pipeline::live_heights(given.dem, given.grid);
+        std::optional<report::LiveHeights> heights = report::live_heights(given.dem, given.grid);
         if (!heights) {
             return;
         }
@@ -472,7 +472,7 @@ private:
     }
 
     void show_scene(Job const& job, char const* level, make::Made const& made) {
-        std::string scene = scene_message(job, level, pipeline::live_scene(made, job.toml, command()));
+        std::string scene = scene_message(job, level, report::live_scene(made, job.toml, command()));
         std::scoped_lock const lock(guard_);
         if (job.number <= left_) {
             return;

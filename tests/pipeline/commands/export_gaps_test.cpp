@@ -14,6 +14,7 @@
 namespace export_gaps_test {
 
 using namespace thalweg;
+using namespace thalweg::report;
 using namespace thalweg::pipeline;
 
 namespace {

@@ -19,6 +19,7 @@
 namespace print_export_test {
 
 using namespace thalweg;
+using namespace thalweg::report;
 using namespace thalweg::pipeline;
 
 namespace {
@@ -161,7 +162,7 @@ TEST(PrintExport, TheSeaIsLevelAndOtherHolesAreRefused) {
     (*scene.dem)[Cell{1, 0}] = std::numeric_limits<float>::quiet_NaN();
     EXPECT_TRUE(
         test::has(test::message_of<BadInput>([&] { print(scene); }), "2 of 35 cells have no data", "close them first"));
-    scene.sea = pipeline::Sea{.level_m = 98.0};
+    scene.sea = report::Sea{.level_m = 98.0};
     Printed const printed = print(scene);
     expect_closed(printed.triangles);
     expect_box(printed.triangles, {150.0, 100.0, 3.0 + 2.5 * 32.0});

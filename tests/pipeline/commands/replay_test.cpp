@@ -12,13 +12,14 @@
 #include <support.hpp>
 
 #include <thalweg/make/make.hpp>
-#include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/report/report.hpp>
 
 namespace replay_test {
 
 using namespace thalweg;
 using namespace thalweg::recipe;
 using namespace thalweg::make;
+using namespace thalweg::report;
 using namespace thalweg::pipeline;
 
 namespace {

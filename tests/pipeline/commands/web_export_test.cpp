@@ -18,6 +18,7 @@
 namespace web_export_test {
 
 using namespace thalweg;
+using namespace thalweg::report;
 using namespace thalweg::pipeline;
 
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
-#include <pipeline/page_decoder.hpp>
+#include <report/page_decoder.hpp>
 #include <support.hpp>
 #include <unpacked.hpp>
 

@@ -20,10 +20,10 @@
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/make/river_claims.hpp>
 #include <thalweg/pipeline/commands/internal/repair_network.hpp>
-#include <thalweg/pipeline/report/report.hpp>
 #include <thalweg/recipe/check_recipe.hpp>
 #include <thalweg/recipe/read_inputs.hpp>
 #include <thalweg/recipe/stages.hpp>
+#include <thalweg/report/report.hpp>
 
 namespace thalweg::pipeline {
 namespace {
@@ -190,7 +190,7 @@ void write_copy(RepairedNetwork const& mended, NetworkFile const& file, CheckOut
                                    mended.ds_area_m2,
                                    mended.node_area_m2,
                                    file.crs,
-                                   {{"version", version()}, {"mended", std::to_string(mended.mended.size())}},
+                                   {{"version", report::version()}, {"mended", std::to_string(mended.mended.size())}},
                                    &mended.braided,
                                    nullptr,
                                    &mended.secondary,
@@ -345,13 +345,13 @@ std::string as_json(CheckResult const& checked) {
                      {"arcs", checked.arcs},
                      {"nodes", checked.nodes},
                      {"schema", checked.schema},
-                     {"checks", ordered_json::parse(checks_json(checked.checks))},
-                     {"findings", ordered_json::parse(findings_json(checked.findings))},
-                     {"notes", ordered_json::parse(findings_json(checked.notes))},
-                     {"mended", ordered_json::parse(findings_json(checked.mended))},
+                     {"checks", ordered_json::parse(report::checks_json(checked.checks))},
+                     {"findings", ordered_json::parse(report::findings_json(checked.findings))},
+                     {"notes", ordered_json::parse(report::findings_json(checked.notes))},
+                     {"mended", ordered_json::parse(report::findings_json(checked.mended))},
                      {"written", checked.written}};
     if (checked.certificate) {
-        out["certificate"] = ordered_json::parse(certificate_json(*checked.certificate));
+        out["certificate"] = ordered_json::parse(report::certificate_json(*checked.certificate));
     }
     return out.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }

@@ -27,8 +27,8 @@
 #include <thalweg/network/order/main_stems.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/planform/split_confluences.hpp>
-#include <thalweg/pipeline/report/report.hpp>
 #include <thalweg/recipe/frame.hpp>
+#include <thalweg/report/report.hpp>
 
 namespace thalweg::pipeline {
 
@@ -281,7 +281,7 @@ ConvertResult run_convert(ConvertParams const& params, Run const& run) {
                              ready.node_area_m2,
                              file.crs,
                              {}};
-    tables.run = {{"version", version()},
+    tables.run = {{"version", report::version()},
                   {"schema_from", file.schema},
                   {"heights_from", converted.heights},
                   {"area_from", converted.areas}};

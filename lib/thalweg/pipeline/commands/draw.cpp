@@ -11,8 +11,8 @@
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/pipeline/ensemble/draw_ensemble.hpp>
-#include <thalweg/pipeline/report/page.hpp>
-#include <thalweg/pipeline/report/read_scene.hpp>
+#include <thalweg/report/page.hpp>
+#include <thalweg/report/read_scene.hpp>
 
 namespace thalweg::pipeline {
 namespace {
@@ -30,9 +30,9 @@ constexpr char const* ensemble_word = "ensemble";
                                    fmt::join(known, ", "), did_you_mean(word, known)));
 }
 
-PictureKind kind_of(std::string const& word) {
+report::PictureKind kind_of(std::string const& word) {
     std::vector<std::string> known;
-    for (PictureKind const kind : picture_kinds()) {
+    for (report::PictureKind const kind : report::picture_kinds()) {
         if (word == name_of(kind)) {
             return kind;
         }
@@ -56,7 +56,7 @@ NamedFormat format_of(std::string const& word) {
 
 /// An output file: a picture, or without a kind the report page.
 struct Task {
-    std::optional<PictureKind> kind;
+    std::optional<report::PictureKind> kind;
     draw::Format format = draw::Format::png;
     std::string name;
 };
@@ -65,7 +65,7 @@ struct Task {
 struct Order {
     std::string folder;
     std::string single; ///< name of the single picture; "": a folder
-    std::vector<PictureKind> kinds;
+    std::vector<report::PictureKind> kinds;
     std::vector<NamedFormat> formats;
     bool page = false;
     bool ensemble = false; ///< of a table, and nothing else
@@ -90,7 +90,7 @@ Order order_of(DrawParams const& params) {
             order.ensemble = true;
             continue;
         }
-        add_once(order.kinds, kind_of(word), [](PictureKind a, PictureKind b) { return a == b; });
+        add_once(order.kinds, kind_of(word), [](report::PictureKind a, report::PictureKind b) { return a == b; });
     }
     for (std::string const& word : params.formats) {
         add_once(order.formats, format_of(word),
@@ -123,7 +123,7 @@ Order order_of(DrawParams const& params) {
             order.kinds.size() > 1 || other || order.page,
             "pipeline.run_draw: {} is the name of one picture in one format: name a folder for several", output);
         if (order.kinds.empty() && !order.ensemble) {
-            order.kinds = {PictureKind::map};
+            order.kinds = {report::PictureKind::map};
         }
         order.formats = {own};
     } else if (order.formats.empty()) {
@@ -132,13 +132,13 @@ Order order_of(DrawParams const& params) {
     return order;
 }
 
-std::vector<Task> tasks_of(Order const& order, Scene const& scene) {
+std::vector<Task> tasks_of(Order const& order, report::Scene const& scene) {
     std::vector<Task> tasks;
     if (order.page) {
         tasks.push_back({{}, {}, order.single.empty() ? std::string(page_word) + page_ending : order.single});
     }
-    for (PictureKind const kind : order.everything() ? picture_kinds() : order.kinds) {
-        std::string const missing = missing_for(kind, scene);
+    for (report::PictureKind const kind : order.everything() ? report::picture_kinds() : order.kinds) {
+        std::string const missing = report::missing_for(kind, scene);
         if (!missing.empty() && order.everything()) {
             continue;
         }
@@ -200,7 +200,8 @@ DrawResult run_draw(DrawParams const& params, Run const& run) {
     if (order.ensemble) {
         return draw_members(params, order, run);
     }
-    SceneRead read = read_scene({.source = params.source, .network = params.network, .reading = params.reading}, run);
+    report::SceneRead read =
+        report::read_scene({.source = params.source, .network = params.network, .reading = params.reading}, run);
     if (!params.title.empty()) {
         read.scene.title = params.title;
     }
@@ -212,11 +213,12 @@ DrawResult run_draw(DrawParams const& params, Run const& run) {
     for (std::size_t i = 0; i < tasks.size(); ++i) {
         run.at(static_cast<double>(i) / static_cast<double>(tasks.size()),
                tasks[i].kind ? name_of(*tasks[i].kind) : page_word);
-        Look look = params.look;
+        report::Look look = params.look;
         look.format = tasks[i].format;
         io::write_text(out.path(tasks[i].name),
-                       tasks[i].kind ? draw_picture(*tasks[i].kind, read.scene, look, run).bytes
-                                     : scene_page(read.scene, texts_of(drawn.findings), command_of(params), run));
+                       tasks[i].kind
+                           ? report::draw_picture(*tasks[i].kind, read.scene, look, run).bytes
+                           : report::scene_page(read.scene, texts_of(drawn.findings), command_of(params), run));
         drawn.files.push_back(order.folder == "." && !order.single.empty()
                                   ? tasks[i].name
                                   : (fs::path(order.folder) / tasks[i].name).string());

@@ -10,7 +10,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
-#include <thalweg/pipeline/report/pictures.hpp>
+#include <thalweg/report/pictures.hpp>
 
 namespace thalweg::pipeline {
 
@@ -29,7 +29,7 @@ struct DrawParams {
     std::vector<std::string> formats;
     std::string network;            ///< file of river lines over a DEM; "": none
     std::string title;              ///< "": the scene's own
-    Look look;                      ///< its format is not used
+    report::Look look;              ///< its format is not used
     io::ReadDemParams reading = {}; ///< how the DEM is read
 };
 

@@ -19,8 +19,8 @@
 #include <thalweg/pipeline/commands/internal/export_gaps.hpp>
 #include <thalweg/pipeline/commands/internal/export_parts.hpp>
 #include <thalweg/pipeline/commands/internal/glb.hpp>
-#include <thalweg/pipeline/report/read_scene.hpp>
-#include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/report/read_scene.hpp>
+#include <thalweg/report/report.hpp>
 
 namespace thalweg::pipeline {
 namespace {
@@ -124,7 +124,7 @@ using ExportJson = nlohmann::ordered_json;
 ExportJson json_of(ExportResult const& made, std::string const& source) {
     bool const mesh = is_mesh(made.format);
     std::string const name = fs::path(source).lexically_normal().filename().string();
-    ExportJson json{{"thalweg", version()},
+    ExportJson json{{"thalweg", report::version()},
                     {"source", name.empty() || name == "." ? source : name},
                     {"format", export_name_of(made.format)},
                     {"width", made.width},
@@ -201,7 +201,7 @@ private:
     io::OutputFolder out_;
 };
 
-void write_obj(LatticeMesh const& mesh, Scene const& scene, ExportFiles const& files, ExportResult const& made,
+void write_obj(LatticeMesh const& mesh, report::Scene const& scene, ExportFiles const& files, ExportResult const& made,
                Run const& run) {
     constexpr char const* material = "ground";
     io::write_textured_obj(mesh, files.path(0), {made.crs, files.name(1), material, made.exaggeration}, run);
@@ -211,7 +211,7 @@ void write_obj(LatticeMesh const& mesh, Scene const& scene, ExportFiles const& f
     io::write_text(files.path(2), texture_of(scene, run));
 }
 
-void write_mesh(Lattice const& ground, Scene const& scene, ExportParams const& params, ExportFiles const& files,
+void write_mesh(Lattice const& ground, report::Scene const& scene, ExportParams const& params, ExportFiles const& files,
                 ExportResult& made, Run const& run) {
     made.exaggeration = params.exaggeration.value_or(1.0);
     if (made.format == ExportFormat::stl) {
@@ -232,7 +232,7 @@ void write_mesh(Lattice const& ground, Scene const& scene, ExportParams const& p
         return;
     }
     std::string const texture = texture_of(scene, run);
-    GlbScene shown{mesh, texture, {}, "thalweg " + version(), {}};
+    GlbScene shown{mesh, texture, {}, "thalweg " + report::version(), {}};
     if (scene.network) {
         shown.rivers = rivers_on_mesh(*scene.network, ground, mesh, made.exaggeration);
     }
@@ -260,8 +260,8 @@ ExportResult run_export(ExportParams const& params, Run const& run) {
     require_options(params, made.format);
     ExportFiles files(params, made.format);
     constexpr std::int64_t longest_side = 30000;
-    SceneRead read =
-        read_scene({.source = params.source, .network = {}, .reading = params.reading, .most_side = longest_side}, run);
+    report::SceneRead read = report::read_scene(
+        {.source = params.source, .network = {}, .reading = params.reading, .most_side = longest_side}, run);
     refuse_if<BadInput>(!read.scene.dem, "pipeline.run_export: {} holds no dem.tif", params.source);
     made.findings = std::move(read.findings);
     bool const keeps_gaps = made.format == ExportFormat::glb || made.format == ExportFormat::obj;
@@ -275,7 +275,7 @@ ExportResult run_export(ExportParams const& params, Run const& run) {
     made.step_m = {ground.z.grid().cell_m, ground.row_step_m};
     made.north_west = ground.north_west();
     made.crs = ground.z.grid().crs;
-    auto const range = height_range(ground.z);
+    auto const range = report::height_range(ground.z);
     refuse_if<BadInput>(!range, "pipeline.run_export: no vertex has a height");
     made.min_m = range->first;
     made.max_m = range->second;

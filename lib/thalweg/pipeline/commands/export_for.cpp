@@ -25,8 +25,8 @@
 #include <thalweg/pipeline/commands/internal/print_export.hpp>
 #include <thalweg/pipeline/commands/internal/river_splines.hpp>
 #include <thalweg/pipeline/commands/internal/web_export.hpp>
-#include <thalweg/pipeline/report/read_scene.hpp>
-#include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/report/read_scene.hpp>
+#include <thalweg/report/report.hpp>
 #include <thalweg/surface/gaps/close_gaps.hpp>
 
 namespace thalweg::pipeline {
@@ -374,7 +374,7 @@ ForJson import_of(Program const& program, ExportResult const& made, Tiles const&
 }
 
 /// Colours of the land as from above in summer, with a little light from the north-west.
-void write_land_colours(Scene const& scene, LandMasks& masks, ExportSize size, std::string const& path,
+void write_land_colours(report::Scene const& scene, LandMasks& masks, ExportSize size, std::string const& path,
                         Run const& run) {
     Raster<float> const& dem = *scene.dem;
     Raster<std::uint8_t> const& kind = masks.kinds(run);
@@ -416,7 +416,7 @@ double runoff_of(ExportParams const& params) {
 /// What a preset writes, step by step.
 class ForProgram {
 public:
-    ForProgram(ExportParams const& params, Program const& program, Scene const& scene,
+    ForProgram(ExportParams const& params, Program const& program, report::Scene const& scene,
                std::vector<RiverSpline> const& rivers, io::OutputFolder const& out, Run const& run)
         : params_(params), program_(program), scene_(scene), out_(out), run_(run), rivers_(rivers),
           masks_(scene, rivers_, tree_line_m()), tiles_(tiles_of(params, program, scene.dem->grid())) {}
@@ -654,11 +654,11 @@ private:
         mesh.origin.z = made.min_m;
         constexpr std::int64_t most_bytes = 1 << 30;
         std::string const texture = io::read_text(out_.path(colour_), most_bytes);
-        ForJson const facts{{"thalweg", version()},
+        ForJson const facts{{"thalweg", report::version()},
                             {"crs", ground.z.grid().crs},
                             {"origin", {mesh.origin.x, mesh.origin.y, mesh.origin.z}},
                             {"exaggeration", made.exaggeration}};
-        GlbScene shown{mesh, texture, {}, "thalweg " + version(), facts.dump()};
+        GlbScene shown{mesh, texture, {}, "thalweg " + report::version(), facts.dump()};
         if (scene_.network) {
             shown.rivers = rivers_on_mesh(*scene_.network, ground, mesh, made.exaggeration);
         }
@@ -678,7 +678,7 @@ private:
 
     ExportParams const& params_;
     Program const& program_;
-    Scene const& scene_;
+    report::Scene const& scene_;
     io::OutputFolder const& out_;
     Run const& run_;
     std::vector<RiverSpline> const& rivers_;
@@ -689,15 +689,15 @@ private:
 };
 
 /// Writes what a printer takes.
-ForJson print_for(ExportParams const& params, Scene const& scene, io::OutputFolder const& out, ExportResult& made,
-                  Run const& run) {
+ForJson print_for(ExportParams const& params, report::Scene const& scene, io::OutputFolder const& out,
+                  ExportResult& made, Run const& run) {
     PrintParams print;
     print.longest_mm = params.print_mm.value_or(print.longest_mm);
     print.base_mm = params.base.value_or(print.base_mm);
     print.exaggeration = params.exaggeration.value_or(1.0);
     PrintExport const printed = write_print(scene, print, out, run);
     std::ranges::copy(printed.findings, std::back_inserter(made.findings));
-    auto const range = height_range(*scene.dem);
+    auto const range = report::height_range(*scene.dem);
     made.format = ExportFormat::stl;
     made.width = printed.width;
     made.height = printed.height;
@@ -725,7 +725,7 @@ ForJson print_for(ExportParams const& params, Scene const& scene, io::OutputFold
 }
 
 /// Writes what a web server takes.
-ForJson web_for(ExportParams const& params, Scene const& scene, io::OutputFolder const& out, ExportResult& made,
+ForJson web_for(ExportParams const& params, report::Scene const& scene, io::OutputFolder const& out, ExportResult& made,
                 Run const& run) {
     WebExportParams web;
     web.exaggeration = params.exaggeration.value_or(1.0);
@@ -761,7 +761,8 @@ ForJson web_for(ExportParams const& params, Scene const& scene, io::OutputFolder
 std::vector<std::string> exported_before(std::string const& folder) {
     fs::path const path = fs::path(folder) / description_for;
     constexpr std::int64_t largest = 64 << 20;
-    return fs::exists(path) ? files_of_report(io::read_text(path.string(), largest)) : std::vector<std::string>{};
+    return fs::exists(path) ? report::files_of_report(io::read_text(path.string(), largest))
+                            : std::vector<std::string>{};
 }
 
 } // namespace
@@ -780,14 +781,15 @@ ExportResult run_export_for(ExportParams const& params, Run const& run) {
         params.existing == io::Existing::replace ? exported_before(params.output) : std::vector<std::string>();
     io::OutputFolder out(params.output, params.existing, before);
     constexpr std::int64_t longest_side = 30000;
-    SceneRead read =
-        read_scene({.source = params.source, .network = {}, .reading = params.reading, .most_side = longest_side}, run);
+    report::SceneRead read = report::read_scene(
+        {.source = params.source, .network = {}, .reading = params.reading, .most_side = longest_side}, run);
     refuse_if<BadInput>(!read.scene.dem, "pipeline.run_export: {} holds no dem.tif", params.source);
     ExportResult made;
     made.findings = std::move(read.findings);
     std::string const name = fs::path(params.source).lexically_normal().filename().string();
-    ForJson json{
-        {"thalweg", version()}, {"source", name.empty() || name == "." ? params.source : name}, {"for", params.preset}};
+    ForJson json{{"thalweg", report::version()},
+                 {"source", name.empty() || name == "." ? params.source : name},
+                 {"for", params.preset}};
     Program const* const program = program_of(preset);
     std::vector<RiverSpline> rivers;
     if (program != nullptr && read.scene.network) {

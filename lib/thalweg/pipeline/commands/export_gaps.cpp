@@ -88,8 +88,8 @@ std::string holes_text(surface::ClosedGaps const& closed, surface::EnclosedGaps 
 }
 
 /// Makes the cells under the sea water.
-void take_sea(Scene& scene, surface::ClosedGaps const& closed, double level_m, ExportResult& made) {
-    scene.sea = Sea{level_m, false};
+void take_sea(report::Scene& scene, surface::ClosedGaps const& closed, double level_m, ExportResult& made) {
+    scene.sea = report::Sea{level_m, false};
     if (scene.lakes.cells() != closed.dem.cells()) {
         scene.lakes = Mask(closed.dem.grid(), 0);
     }
@@ -196,7 +196,7 @@ void require_gap_options(ExportParams const& params) {
                             "pipeline.run_export: --rim sea needs the height of the sea: --sea-level 0");
 }
 
-void close_gaps_of(Scene& scene, ExportParams const& params, ExportResult& made, Run const& run) {
+void close_gaps_of(report::Scene& scene, ExportParams const& params, ExportResult& made, Run const& run) {
     if (scene.sea) {
         refuse_if<BadInput>(asks_for_gaps(params),
                             "pipeline.run_export: {} has a sea at {:.6g} m, by its recipe, and its cells without data "

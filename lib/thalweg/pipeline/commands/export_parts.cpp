@@ -10,7 +10,7 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/draw/map.hpp>
 #include <thalweg/io/raster/dem_derivatives.hpp>
-#include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/report/report.hpp>
 
 namespace thalweg::pipeline {
 namespace {
@@ -36,7 +36,7 @@ ExportSize fitting(Grid const& grid, std::int64_t longer) {
     return {side(grid.width), side(grid.height)};
 }
 
-Lattice sampled(Scene const& scene, ExportSize size, ExportResult& made, Run const& run) {
+Lattice sampled(report::Scene const& scene, ExportSize size, ExportResult& made, Run const& run) {
     Raster<float> const& dem = *scene.dem;
     auto const holes = std::ranges::count_if(dem.values(), [](float z) { return std::isnan(z); });
     if (holes == 0) {
@@ -59,7 +59,7 @@ Lattice sampled(Scene const& scene, ExportSize size, ExportResult& made, Run con
     return lattice(dem, size.width, size.height, run);
 }
 
-std::string texture_of(Scene const& scene, Run const& run) {
+std::string texture_of(report::Scene const& scene, Run const& run) {
     run.at(0.0, "texture");
     Raster<float> const& dem = *scene.dem;
     draw::MapSheet sheet{dem,

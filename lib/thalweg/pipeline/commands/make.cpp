@@ -9,9 +9,9 @@
 
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
-#include <thalweg/pipeline/report/report.hpp>
 #include <thalweg/recipe/make_input.hpp>
 #include <thalweg/recipe/recipe_files.hpp>
+#include <thalweg/report/report.hpp>
 
 namespace thalweg::pipeline {
 
@@ -87,7 +87,7 @@ recipe::Recipe recipe_to_rebuild(RebuildFromParams const& params) {
 make::Made run_make(MakeParams const& params, Run const& run) {
     recipe::Recipe recipe = recipe_asked(params);
     recipe::UserFiles const files(recipe, run);
-    return make_folder(recipe, params.output, params.existing, run);
+    return report::make_folder(recipe, params.output, params.existing, run);
 }
 
 recipe::Forecast forecast_make(MakeParams const& params, Run const& run) {
@@ -99,7 +99,7 @@ recipe::Forecast forecast_make(MakeParams const& params, Run const& run) {
 make::Made run_rebuild(RebuildFromParams const& params, Run const& run) {
     recipe::Recipe recipe = recipe_to_rebuild(params);
     recipe::UserFiles const files(recipe, run);
-    return make_folder(recipe::rebuild_recipe(recipe, run), params.output, params.existing, run);
+    return report::make_folder(recipe::rebuild_recipe(recipe, run), params.output, params.existing, run);
 }
 
 recipe::Forecast forecast_rebuild(RebuildFromParams const& params, Run const& run) {

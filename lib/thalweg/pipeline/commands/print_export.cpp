@@ -12,7 +12,7 @@
 #include <thalweg/io/mesh/lattice_files.hpp>
 #include <thalweg/pipeline/commands/internal/export_parts.hpp>
 #include <thalweg/pipeline/commands/internal/print_export.hpp>
-#include <thalweg/pipeline/report/landmarks.hpp>
+#include <thalweg/report/landmarks.hpp>
 
 namespace thalweg::pipeline {
 namespace {
@@ -27,7 +27,7 @@ void require_print(PrintParams const& params) {
     require_in(who, "vertices", params.most_vertices, Range::between(2.0, 2049.0));
 }
 
-Raster<float> without_holes(Scene const& scene) {
+Raster<float> without_holes(report::Scene const& scene) {
     Raster<float> dem = *scene.dem;
     auto const is_hole = [](float z) { return std::isnan(z); };
     if (scene.sea) {
@@ -81,7 +81,8 @@ std::vector<Finding> print_findings(PrintExport const& made, PrintParams const& 
 
 } // namespace
 
-PrintExport write_print(Scene const& scene, PrintParams const& params, io::OutputFolder const& out, Run const& run) {
+PrintExport write_print(report::Scene const& scene, PrintParams const& params, io::OutputFolder const& out,
+                        Run const& run) {
     require_print(params);
     refuse_if<BadInput>(!scene.dem, "pipeline.write_print: there is no DEM");
     Raster<float> const dem = without_holes(scene);
@@ -100,7 +101,7 @@ PrintExport write_print(Scene const& scene, PrintParams const& params, io::Outpu
     io::write_stl(mesh, out.path(name), run, "millimetres");
 
     PrintExport made;
-    auto const range = *height_range(ground.z);
+    auto const range = *report::height_range(ground.z);
     made.relief_mm = (range.second - range.first) * params.exaggeration * mm_per_m;
     made.size_mm = {mm_per_m * extent.x, mm_per_m * extent.y, params.base_mm + made.relief_mm};
     constexpr double mm_in_m = 1000.0;

@@ -7,8 +7,8 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/make/make.hpp>
-#include <thalweg/pipeline/report/report.hpp>
 #include <thalweg/recipe/recipe.hpp>
+#include <thalweg/report/report.hpp>
 
 namespace thalweg::pipeline {
 
@@ -28,7 +28,7 @@ ReplayResult run_replay(ReplayParams const& params, Run const& run) {
     io::TemporaryFolder const aside("thalweg-replay");
     std::string const again = (aside.path() / "again").string();
     ReplayResult out;
-    for (std::string const& name : write_terrain(make::make(recipe, run), again, io::Existing::refuse, run)) {
+    for (std::string const& name : report::write_terrain(make::make(recipe, run), again, io::Existing::refuse, run)) {
         if (name.rfind("report.", 0) == 0) {
             continue; // times differ
         }

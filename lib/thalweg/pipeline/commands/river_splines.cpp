@@ -11,7 +11,7 @@
 namespace thalweg::pipeline {
 namespace {
 
-std::vector<double> areas_at_ends(Scene const& scene, Run const& run) {
+std::vector<double> areas_at_ends(report::Scene const& scene, Run const& run) {
     std::size_t const arcs = scene.network->planform.arc_count();
     if (scene.ds_area_m2.size() == arcs &&
         std::ranges::all_of(scene.ds_area_m2, [](double area) { return area > 0.0; })) {
@@ -22,7 +22,7 @@ std::vector<double> areas_at_ends(Scene const& scene, Run const& run) {
 
 } // namespace
 
-std::vector<RiverSpline> river_splines(Scene const& scene, double runoff_mm, Run const& run) {
+std::vector<RiverSpline> river_splines(report::Scene const& scene, double runoff_mm, Run const& run) {
     StreamNetwork const& network = scene.network->planform;
     std::vector<double> const ends = areas_at_ends(scene, run);
     double const cell_m = scene.dem->grid().cell_m;

@@ -18,9 +18,9 @@
 #include <thalweg/io/gdal/packed.hpp>
 #include <thalweg/io/raster/dem_derivatives.hpp>
 #include <thalweg/pipeline/commands/internal/web_template.hpp>
-#include <thalweg/pipeline/report/landmarks.hpp>
-#include <thalweg/pipeline/report/page.hpp>
-#include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/report/landmarks.hpp>
+#include <thalweg/report/page.hpp>
+#include <thalweg/report/report.hpp>
 
 namespace thalweg::pipeline {
 namespace {
@@ -38,7 +38,7 @@ struct WebHeights {
     std::int64_t holes = 0;
 };
 
-WebHeights without_holes(Scene const& scene, std::vector<Finding>& findings, Run const& run) {
+WebHeights without_holes(report::Scene const& scene, std::vector<Finding>& findings, Run const& run) {
     Raster<float> const& dem = *scene.dem;
     WebHeights out{dem, Mask(dem.grid(), 1), 0};
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
@@ -72,7 +72,7 @@ WebHeights without_holes(Scene const& scene, std::vector<Finding>& findings, Run
     return out;
 }
 
-std::string web_picture(Scene const& scene, Run const& run) {
+std::string web_picture(report::Scene const& scene, Run const& run) {
     run.at(0.0, "texture");
     Raster<float> const& dem = *scene.dem;
     draw::MapSheet sheet{dem, io::hillshade(dem), nullptr, nullptr, {}, nullptr};
@@ -94,7 +94,7 @@ std::string web_picture(Scene const& scene, Run const& run) {
 }
 
 /// Width of a river's line [px]: by the root of the area, as on maps, or by order.
-std::vector<double> web_widths(Scene const& scene) {
+std::vector<double> web_widths(report::Scene const& scene) {
     std::vector<int> const& orders = scene.orders.strahler;
     std::vector<double> const& areas = scene.ds_area_m2;
     int const highest = orders.empty() ? 1 : *std::ranges::max_element(orders);
@@ -111,7 +111,7 @@ std::vector<double> web_widths(Scene const& scene) {
 
 /// A FeatureCollection of the rivers from an order on.
 std::string geojson_from(int order, std::vector<std::vector<Vec2>> const& lines, std::vector<double> const& widths,
-                         Scene const& scene) {
+                         report::Scene const& scene) {
     WebJson features = WebJson::array();
     for (std::size_t arc = 0; arc < lines.size(); ++arc) {
         if (scene.orders.strahler[arc] < order) {
@@ -134,7 +134,7 @@ struct WebRivers {
     std::string some; ///< of the orders that a page of limited size has room for
 };
 
-WebRivers web_rivers(Scene const& scene, io::WebPyramid const& pyramid, std::int64_t most_bytes,
+WebRivers web_rivers(report::Scene const& scene, io::WebPyramid const& pyramid, std::int64_t most_bytes,
                      std::vector<Finding>& findings) {
     if (!scene.network || scene.network->planform.arc_count() == 0) {
         return {};
@@ -204,13 +204,13 @@ WebInside tiles_inside(io::WebPyramid const& pyramid, io::OutputFolder const& ou
     return inside;
 }
 
-std::string web_page(Scene const& scene, WebJson const& data, std::string const& tiles) {
-    std::string const title = html_text(scene.title.empty() ? "Terrain" : scene.title);
-    std::string const json = without_tags(web_dump(data));
-    return fill_markers(web_template(), {{"@@TITLE@@", &title}, {"@@DATA@@", &json}, {"@@TILES@@", &tiles}});
+std::string web_page(report::Scene const& scene, WebJson const& data, std::string const& tiles) {
+    std::string const title = report::html_text(scene.title.empty() ? "Terrain" : scene.title);
+    std::string const json = report::without_tags(web_dump(data));
+    return report::fill_markers(web_template(), {{"@@TITLE@@", &title}, {"@@DATA@@", &json}, {"@@TILES@@", &tiles}});
 }
 
-void require_web(Scene const& scene, WebExportParams const& params) {
+void require_web(report::Scene const& scene, WebExportParams const& params) {
     require_in("pipeline.write_web", "exaggeration", params.exaggeration, Range::above(0.0));
     require_in("pipeline.write_web", "most_bytes", params.most_bytes, Range::at_least(1));
     refuse_if<BadInput>(!scene.dem, "pipeline.write_web: there is no DEM");
@@ -220,13 +220,14 @@ void require_web(Scene const& scene, WebExportParams const& params) {
 
 } // namespace
 
-WebExport write_web(Scene const& scene, WebExportParams const& params, io::OutputFolder const& out, Run const& run) {
+WebExport write_web(report::Scene const& scene, WebExportParams const& params, io::OutputFolder const& out,
+                    Run const& run) {
     require_web(scene, params);
     Raster<float> const& dem = *scene.dem;
     WebExport made;
     WebHeights const ground = without_holes(scene, made.findings, run);
     made.holes = ground.holes;
-    std::tie(made.min_m, made.max_m) = *height_range(ground.z);
+    std::tie(made.min_m, made.max_m) = *report::height_range(ground.z);
     io::WebPyramid const pyramid = io::web_pyramid(dem.grid(), params.pyramid);
     made.min_zoom = pyramid.min_zoom;
     made.max_zoom = pyramid.max_zoom;
@@ -255,7 +256,7 @@ WebExport write_web(Scene const& scene, WebExportParams const& params, io::Outpu
     }
     draw::WireframeScene const valley{dem, scene.network ? &*scene.network : nullptr,
                                       scene.network ? &scene.orders : nullptr};
-    WebJson data{{"thalweg", version()},
+    WebJson data{{"thalweg", report::version()},
                  {"title", scene.title},
                  {"bounds", {made.bounds.west, made.bounds.south, made.bounds.east, made.bounds.north}},
                  {"min_zoom", made.min_zoom},

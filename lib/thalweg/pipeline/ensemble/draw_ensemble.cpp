@@ -280,7 +280,8 @@ draw::Thumbnail thumbnail_of(MembersTable const& table, DrawnMember const& membe
 }
 
 /// The contact sheet of the members that have a DEM beside the table.
-EnsembleSheet sheet_of_members(EnsembleView const& view, fs::path const& folder, Look const& look, Run const& run) {
+EnsembleSheet sheet_of_members(EnsembleView const& view, fs::path const& folder, report::Look const& look,
+                               Run const& run) {
     MembersTable const& table = view.table;
     auto const dem_of = [&](DrawnMember const& member) { return folder_of(folder, member) / "dem.tif"; };
     std::vector<std::size_t> const chosen = chosen_members(table);
@@ -329,7 +330,7 @@ std::string in_file_name(std::string const& key) {
     return name;
 }
 
-template <class Params> Params sheet_params(EnsembleView const& view, Look const& look, draw::Format format) {
+template <class Params> Params sheet_params(EnsembleView const& view, report::Look const& look, draw::Format format) {
     Params params;
     params.title = view.title;
     params.note = view.summary;
@@ -338,7 +339,8 @@ template <class Params> Params sheet_params(EnsembleView const& view, Look const
     return params;
 }
 
-draw::Picture responses_to(DrawnKey const& key, EnsembleView const& view, Look const& look, draw::Format format) {
+draw::Picture responses_to(DrawnKey const& key, EnsembleView const& view, report::Look const& look,
+                           draw::Format format) {
     auto params = sheet_params<draw::ResponsesParams>(view, look, format);
     params.title += ": response to " + key.values.name + (key.values.unit.empty() ? "" : " [" + key.values.unit + "]");
     params.words = key.words;

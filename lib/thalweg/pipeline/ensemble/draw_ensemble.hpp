@@ -9,7 +9,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/draw/picture.hpp>
 #include <thalweg/io/files/files.hpp>
-#include <thalweg/pipeline/report/pictures.hpp>
+#include <thalweg/report/pictures.hpp>
 
 namespace thalweg::pipeline {
 
@@ -23,7 +23,7 @@ struct NamedFormat {
 struct DrawEnsembleParams {
     std::string source; ///< a table.csv, or the folder that holds it
     std::string title;  ///< "": after the folder
-    Look look;
+    report::Look look;
     std::string folder;
     std::string single;                           ///< name of the only file; "": all files, into the folder
     io::Existing existing = io::Existing::refuse; ///< replace: files of the same name are replaced, nothing else

@@ -11,7 +11,7 @@
 #include <thalweg/core/numbers/ranks.hpp>
 #include <thalweg/io/gdal/packed.hpp>
 #include <thalweg/pipeline/ensemble/internal/ensemble_page.hpp>
-#include <thalweg/pipeline/report/page.hpp>
+#include <thalweg/report/page.hpp>
 
 namespace thalweg::pipeline {
 namespace {
@@ -86,7 +86,7 @@ std::string page_number(double value) {
 std::string svg_on_page(std::string const& svg, std::string const& label, std::string const& ids) {
     constexpr std::string_view style = "style=\"";
     constexpr std::array<std::string_view, 3> references = {" id=\"", "href=\"#", "url(#"};
-    std::string out = fmt::format(R"(<svg role="img" aria-label="{}")", html_text(label));
+    std::string out = fmt::format(R"(<svg role="img" aria-label="{}")", report::html_text(label));
     std::size_t i = svg.find("<svg");
     i = i == std::string::npos ? svg.size() : i + 4;
     while (i < svg.size()) {
@@ -146,8 +146,8 @@ std::vector<draw::Distribution> without_group(std::vector<draw::Distribution> in
 }
 
 std::string with_unit(draw::Distribution const& index) {
-    return html_text(index.name) +
-           (index.unit.empty() ? "" : fmt::format(" <span class=\"faint\">[{}]</span>", html_text(index.unit)));
+    return report::html_text(index.name) +
+           (index.unit.empty() ? "" : fmt::format(" <span class=\"faint\">[{}]</span>", report::html_text(index.unit)));
 }
 
 std::vector<DrawnKey> numbers_of(std::vector<DrawnKey> keys) {
@@ -190,12 +190,12 @@ std::string table_of_numbers(EnsembleView const& view) {
         "<th scope=\"col\">minimum</th><th scope=\"col\">5&nbsp;%</th><th scope=\"col\">median</th><th scope=\"col\">"
         "95&nbsp;%</th><th scope=\"col\">maximum</th><th scope=\"col\">natural range</th><th scope=\"col\">inside</th>";
     for (DrawnKey const& key : numbers) {
-        html += fmt::format("<th scope=\"col\">ρ {}</th>", html_text(key.values.name));
+        html += fmt::format("<th scope=\"col\">ρ {}</th>", report::html_text(key.values.name));
     }
     html += "</tr></thead>\n<tbody>\n";
     for (auto const& group : groups_of(view.indices)) {
         html += fmt::format("<tr><th scope=\"rowgroup\" colspan=\"{}\">{}</th></tr>\n", 9 + numbers.size(),
-                            html_text(group.front().group));
+                            report::html_text(group.front().group));
         for (draw::Distribution const& index : group) {
             html += table_row(index, view);
         }
@@ -211,14 +211,14 @@ std::string table_of_failures(EnsembleView const& view) {
         if (member.status == DrawnStatus::ok || ++count > most_listed) {
             continue;
         }
-        rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td>", member.number, html_text(member.seed));
+        rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td>", member.number, report::html_text(member.seed));
         for (std::string const& value : member.values) {
             double const number = plain_number(value);
-            rows += fmt::format("<td>{}</td>", std::isnan(number) ? html_text(value) : page_number(number));
+            rows += fmt::format("<td>{}</td>", std::isnan(number) ? report::html_text(value) : page_number(number));
         }
-        rows +=
-            fmt::format("<td class=\"words\">{}</td><td class=\"words\">{}</td></tr>\n",
-                        member.status == DrawnStatus::failed ? "not made" : "check failed", html_text(member.reason));
+        rows += fmt::format("<td class=\"words\">{}</td><td class=\"words\">{}</td></tr>\n",
+                            member.status == DrawnStatus::failed ? "not made" : "check failed",
+                            report::html_text(member.reason));
     }
     std::string html = "<h2 id=\"failures\">Failures</h2>\n";
     if (count == 0) {
@@ -226,7 +226,7 @@ std::string table_of_failures(EnsembleView const& view) {
     }
     html += "<div class=\"scroll\"><table>\n<thead><tr><th scope=\"col\">member</th><th scope=\"col\">seed</th>";
     for (std::string const& key : table.keys) {
-        html += fmt::format("<th scope=\"col\">{}</th>", html_text(key));
+        html += fmt::format("<th scope=\"col\">{}</th>", report::html_text(key));
     }
     html += "<th scope=\"col\">status</th><th scope=\"col\">reason</th></tr></thead>\n<tbody>\n" + rows +
             "</tbody></table></div>\n";
@@ -243,7 +243,7 @@ template <class Draw> std::string figures_of(EnsembleView const& view, std::stri
     for (auto const& group : groups_of(view.indices)) {
         std::string const& name = group.front().group;
         html +=
-            fmt::format("<figure><h3>{}</h3>{}</figure>\n", html_text(name),
+            fmt::format("<figure><h3>{}</h3>{}</figure>\n", report::html_text(name),
                         svg_on_page(draw_group(without_group(group)).bytes, name, fmt::format("{}{}-", ids, ++number)));
     }
     return html;
@@ -253,14 +253,14 @@ template <class Draw> std::string figures_of(EnsembleView const& view, std::stri
 
 std::string ensemble_page(EnsembleView const& view, EnsembleSheet const& sheet, std::string const& command,
                           Run const& run) {
-    std::string const title = html_text(view.title);
+    std::string const title = report::html_text(view.title);
     std::string html = fmt::format(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-"
         "Policy\" content=\"default-src 'none'; style-src '{}'; img-src data:; base-uri 'none'; form-action 'none'\">\n"
         "<meta name=\"viewport\" content=\"width=device-width, "
         "initial-scale=1\">\n<title>{}</title>\n<style>{}</style>\n"
         "</head>\n<body>\n<h1>{}</h1>\n<p>{}</p>\n",
-        style_hash, title, ensemble_style, title, html_text(view.summary));
+        style_hash, title, ensemble_style, title, report::html_text(view.summary));
     html += "<nav><p><a href=\"#distributions\">Distributions</a>";
     if (!view.parameters.empty()) {
         html += "<a href=\"#responses\">Responses</a>";
@@ -276,8 +276,8 @@ std::string ensemble_page(EnsembleView const& view, EnsembleSheet const& sheet, 
     for (DrawnKey const& key : view.parameters) {
         run.check();
         html += fmt::format("<h2{}>Response to {}</h2>\n<p>Across: {}.{}</p>\n",
-                            ++number == 1 ? " id=\"responses\"" : "", html_text(key.values.name), with_unit(key.values),
-                            key.words.empty() ? " ρ: Spearman’s rank correlation." : "");
+                            ++number == 1 ? " id=\"responses\"" : "", report::html_text(key.values.name),
+                            with_unit(key.values), key.words.empty() ? " ρ: Spearman’s rank correlation." : "");
         html += figures_of(view, fmt::format("r{}-", number), [&](std::vector<draw::Distribution> const& group) {
             return draw::responses(key.values, group, {.title = {}, .note = {}, .words = key.words});
         });
@@ -286,21 +286,21 @@ std::string ensemble_page(EnsembleView const& view, EnsembleSheet const& sheet, 
     html += table_of_failures(view);
     html += "<h2 id=\"members\">Members</h2>\n";
     if (sheet.png.empty()) {
-        html += fmt::format("<p>{}.</p>\n", html_text(sheet.note));
+        html += fmt::format("<p>{}.</p>\n", report::html_text(sheet.note));
     } else {
         html += fmt::format("<p>{}.</p>\n<figure><img alt=\"Hillshades of members\" src=\"data:image/png;base64,{}\">"
                             "</figure>\n",
-                            html_text(sheet.note),
+                            report::html_text(sheet.note),
                             io::base64({reinterpret_cast<std::uint8_t const*>(sheet.png.data()), sheet.png.size()}));
     }
     if (!view.findings.empty()) {
         html += "<h2>Notes</h2>\n";
         for (std::string const& note : texts_of(view.findings)) {
-            html += fmt::format("<p>{}.</p>\n", html_text(note));
+            html += fmt::format("<p>{}.</p>\n", report::html_text(note));
         }
     }
-    return html +
-           fmt::format("<p class=\"faint\">Drawn again by <code>{}</code></p>\n</body>\n</html>\n", html_text(command));
+    return html + fmt::format("<p class=\"faint\">Drawn again by <code>{}</code></p>\n</body>\n</html>\n",
+                              report::html_text(command));
 }
 
 } // namespace thalweg::pipeline

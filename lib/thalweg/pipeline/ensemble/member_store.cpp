@@ -29,9 +29,9 @@
 #include <thalweg/io/raster/heightmap.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/make/river_claims.hpp>
-#include <thalweg/pipeline/report/report.hpp>
 #include <thalweg/recipe/recipe_files.hpp>
 #include <thalweg/recipe/stages.hpp>
+#include <thalweg/report/report.hpp>
 
 namespace thalweg::pipeline {
 
@@ -53,7 +53,7 @@ void require_at(std::string const& path, std::error_code error) {
 
 /// ensemble.json: what decides the members beside the recipe.
 std::string description_of(Ensemble const& ensemble, std::vector<std::string> const& vary, MemberFiles const& files) {
-    nlohmann::ordered_json json{{"version", version()}, {"seed", ensemble.recipe.seed}, {"vary", vary}};
+    nlohmann::ordered_json json{{"version", report::version()}, {"seed", ensemble.recipe.seed}, {"vary", vary}};
     json["members_a_shard"] = files.members_a_shard;
     if (files.members_a_shard > 0) {
         json["members"] = ensemble.members;
@@ -501,7 +501,7 @@ void MemberStore::add(MadeMember const& made, double seconds, Run const& run) {
     } else if (files_.folders && made.made) {
         from = fs::path(work) / member_folder(number);
         to = fs::path(folder_) / member_folder(number);
-        record.files = write_terrain(*made.made, from.string(), io::Existing::refuse, run);
+        record.files = report::write_terrain(*made.made, from.string(), io::Existing::refuse, run);
     }
     record.writing_s = stopwatch.time_of("write").wall_s;
     record.seconds = seconds + record.writing_s;

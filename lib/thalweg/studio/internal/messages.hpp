@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <thalweg/make/make.hpp>
-#include <thalweg/pipeline/report/live_page.hpp>
+#include <thalweg/report/live_page.hpp>
 #include <thalweg/studio/document.hpp>
 #include <thalweg/studio/drawing.hpp>
 #include <thalweg/studio/engine.hpp>
@@ -51,8 +51,8 @@ std::string failed_message(Job const& job, std::string_view error);
 std::string say_message(std::string_view text);
 /// What is to be read of a job's findings: all but those that list the input's features.
 std::string findings_message(Job const& job, std::vector<Finding> const& findings);
-std::string cluster_message(Job const& job, std::optional<pipeline::ClusterArms> const& arms);
-/// \param members as pipeline::live_scene()
+std::string cluster_message(Job const& job, std::optional<report::ClusterArms> const& arms);
+/// \param members as report::live_scene()
 std::string scene_message(Job const& job, std::string_view level, std::string const& members);
 /// \param job that was begun last
 /// \param said what came of it beside what was asked
@@ -78,8 +78,8 @@ std::string written_message(std::int64_t id, std::int64_t revision, Written cons
 struct Shown {
     Grid grid; ///< of the terrain
     bool is_finished = false;
-    pipeline::LiveHeights heights;
-    std::optional<pipeline::Sea> sea;
+    report::LiveHeights heights;
+    std::optional<report::Sea> sea;
 };
 
 /// Heights as a binary message.

@@ -8,7 +8,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/pipeline/commands/export.hpp>
 #include <thalweg/pipeline/commands/internal/river_splines.hpp>
-#include <thalweg/pipeline/report/pictures.hpp>
+#include <thalweg/report/pictures.hpp>
 
 namespace thalweg::pipeline {
 
@@ -23,7 +23,7 @@ bool asks_for_gaps(ExportParams const& params);
 /// lakes, so that maps and masks show water there. A folder whose recipe has a sea keeps its gaps: they are that sea.
 /// \param scene with a DEM; a DEM that is cut becomes smaller
 /// \throws BadInput when a folder with a sea is given options of gaps
-void close_gaps_of(Scene& scene, ExportParams const& params, ExportResult& made, Run const& run);
+void close_gaps_of(report::Scene& scene, ExportParams const& params, ExportResult& made, Run const& run);
 
 /// Describes what close_gaps_of() did.
 /// \return a JSON object: cells_without_data and, where there are some, without_data_m, rim, holes, sea_level_m

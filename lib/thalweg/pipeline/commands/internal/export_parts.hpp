@@ -9,7 +9,7 @@
 #include <thalweg/core/lattice.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/pipeline/commands/export.hpp>
-#include <thalweg/pipeline/report/pictures.hpp>
+#include <thalweg/report/pictures.hpp>
 
 namespace thalweg::pipeline {
 
@@ -23,10 +23,10 @@ struct ExportSize {
 ExportSize fitting(Grid const& grid, std::int64_t longer);
 
 /// Samples the DEM, whose gaps get the level of the sea or, in meshes without one, stay, and says so in the result.
-Lattice sampled(Scene const& scene, ExportSize size, ExportResult& made, Run const& run);
+Lattice sampled(report::Scene const& scene, ExportSize size, ExportResult& made, Run const& run);
 
 /// \return PNG of the ground; corners as a lattice's
-std::string texture_of(Scene const& scene, Run const& run);
+std::string texture_of(report::Scene const& scene, Run const& run);
 
 /// Rivers laid on a mesh, in its frame; a little above it, or they would be hidden in it.
 std::vector<std::vector<Vec3>> rivers_on_mesh(ElevatedNetwork const& network, Lattice const& ground,

@@ -11,7 +11,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/flow/route.hpp>
 #include <thalweg/pipeline/commands/internal/river_splines.hpp>
-#include <thalweg/pipeline/report/pictures.hpp>
+#include <thalweg/report/pictures.hpp>
 
 namespace thalweg::pipeline {
 
@@ -58,7 +58,7 @@ public:
     /// \param scene with a DEM; it outlives the masks
     /// \param rivers of the scene, empty: none; they outlive the masks
     /// \param tree_line_m [m] of land cover: no forest above
-    LandMasks(Scene const& scene, std::vector<RiverSpline> const& rivers, double tree_line_m)
+    LandMasks(report::Scene const& scene, std::vector<RiverSpline> const& rivers, double tree_line_m)
         : scene_(scene), rivers_(rivers), tree_line_m_(tree_line_m) {}
 
     /// \return the mask; of land_cover each kind's number over 255
@@ -84,7 +84,7 @@ private:
     };
     Beside const& beside(Run const& run);
 
-    Scene const& scene_;
+    report::Scene const& scene_;
     std::vector<RiverSpline> const& rivers_;
     double tree_line_m_;
     std::optional<flow::FlowField> field_;

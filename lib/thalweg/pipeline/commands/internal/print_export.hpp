@@ -10,7 +10,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/io/files/files.hpp>
-#include <thalweg/pipeline/report/pictures.hpp>
+#include <thalweg/report/pictures.hpp>
 
 namespace thalweg::pipeline {
 
@@ -42,6 +42,7 @@ struct PrintExport {
 /// \return what was written; the same bytes for any number of threads
 /// \throws BadParameter for an option out of its range
 /// \throws BadInput when cells have no data and are not the sea, or the DEM has a single row or column
-PrintExport write_print(Scene const& scene, PrintParams const& params, io::OutputFolder const& out, Run const& run);
+PrintExport write_print(report::Scene const& scene, PrintParams const& params, io::OutputFolder const& out,
+                        Run const& run);
 
 } // namespace thalweg::pipeline

@@ -7,7 +7,7 @@
 
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
-#include <thalweg/pipeline/report/pictures.hpp>
+#include <thalweg/report/pictures.hpp>
 
 namespace thalweg::pipeline {
 
@@ -29,6 +29,6 @@ struct RiverSpline {
 /// \return by arc
 ///
 /// Source: \cite moody2002, width of rivers by discharge.
-std::vector<RiverSpline> river_splines(Scene const& scene, double runoff_mm, Run const& run = {});
+std::vector<RiverSpline> river_splines(report::Scene const& scene, double runoff_mm, Run const& run = {});
 
 } // namespace thalweg::pipeline

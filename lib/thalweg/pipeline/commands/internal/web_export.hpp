@@ -10,7 +10,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/raster/web_tiles.hpp>
-#include <thalweg/pipeline/report/pictures.hpp>
+#include <thalweg/report/pictures.hpp>
 
 namespace thalweg::pipeline {
 
@@ -42,6 +42,7 @@ struct WebExport {
 /// \throws BadParameter for an exaggeration out of range
 /// \throws BadInput when there is no DEM or no height; as io::web_pyramid and draw::ground
 /// \throws IoError when a file cannot be written
-WebExport write_web(Scene const& scene, WebExportParams const& params, io::OutputFolder const& out, Run const& run);
+WebExport write_web(report::Scene const& scene, WebExportParams const& params, io::OutputFolder const& out,
+                    Run const& run);
 
 } // namespace thalweg::pipeline

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/report/landmarks.hpp>
+#include <thalweg/report/landmarks.hpp>
 
 #include <cmath>
 #include <limits>
@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace thalweg::pipeline {
+namespace thalweg::report {
 namespace {
 
 /// Cones of given heights on a plain.
@@ -32,42 +32,42 @@ TEST(Landmarks, SummitsAreTheMostProminentWithRoomBetweenThem) {
     // The third stands too near to the second, the fourth is not prominent enough.
     Raster<float> dem = cones({{{40, 40}, 200.0}, {{120, 40}, 300.0}, {{126, 40}, 280.0}, {{80, 70}, 8.0}});
     dem[Cell{0, 0}] = std::numeric_limits<float>::quiet_NaN();
-    std::vector<Summit> const found = summits(dem, 10);
+    std::vector<report::Summit> const found = report::summits(dem, 10);
     ASSERT_EQ(found.size(), 2U);
     EXPECT_EQ(found[0].at, dem.grid().centre({120, 40}));
     EXPECT_EQ(found[0].z, 300.0);
     EXPECT_EQ(found[1].at, dem.grid().centre({40, 40}));
-    EXPECT_EQ(summits(dem, 1).size(), 1U);
-    EXPECT_TRUE(summits(Raster<float>(dem.grid(), 5.0F), 10).empty());
+    EXPECT_EQ(report::summits(dem, 1).size(), 1U);
+    EXPECT_TRUE(report::summits(Raster<float>(dem.grid(), 5.0F), 10).empty());
 }
 
 TEST(Landmarks, TheSeaIsWhereCellsOfATerrainAreNotLand) {
     make::Terrain terrain;
-    EXPECT_FALSE(sea_of(terrain).has_value());
+    EXPECT_FALSE(report::sea_of(terrain).has_value());
     terrain.land = Mask(Grid{3, 3, 1.0, 0.0, 3.0, ""}, 1);
-    ASSERT_TRUE(sea_of(terrain).has_value());
-    EXPECT_FALSE(sea_of(terrain)->is_around);
+    ASSERT_TRUE(report::sea_of(terrain).has_value());
+    EXPECT_FALSE(report::sea_of(terrain)->is_around);
     terrain.land = Mask{};
     terrain.equilibrium.emplace();
-    EXPECT_FALSE(sea_of(terrain).has_value());
+    EXPECT_FALSE(report::sea_of(terrain).has_value());
     terrain.equilibrium->edge = surface::Edge::coast;
-    EXPECT_TRUE(sea_of(terrain)->is_around);
+    EXPECT_TRUE(report::sea_of(terrain)->is_around);
 }
 
 TEST(Landmarks, ARecipeNamesTheSeaOfTerrainInEquilibrium) {
     recipe::Recipe recipe;
-    EXPECT_FALSE(sea_of(recipe).has_value());
+    EXPECT_FALSE(report::sea_of(recipe).has_value());
     recipe.surface.emplace();
     recipe.surface->method = recipe::Method::equilibrium;
     for (auto const& [edge, has_sea, is_around] : {std::tuple{surface::Edge::open, false, false},
                                                    {surface::Edge::mainland, true, false},
                                                    {surface::Edge::coast, true, true}}) {
         recipe.surface->equilibrium.edge = edge;
-        EXPECT_EQ(sea_of(recipe).has_value(), has_sea);
-        EXPECT_EQ(sea_of(recipe).value_or(Sea{}).is_around, is_around);
+        EXPECT_EQ(report::sea_of(recipe).has_value(), has_sea);
+        EXPECT_EQ(report::sea_of(recipe).value_or(report::Sea{}).is_around, is_around);
     }
     recipe.surface->method = recipe::Method::dilate;
-    EXPECT_FALSE(sea_of(recipe).has_value());
+    EXPECT_FALSE(report::sea_of(recipe).has_value());
 }
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::report

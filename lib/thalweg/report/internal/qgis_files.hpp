@@ -7,7 +7,7 @@
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/make/make.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::report {
 
 /// Writes project.qgz, which shows the files that a folder has in QGIS, and the styles of its rasters and meshes
 /// (dem.qml ...).
@@ -15,4 +15,4 @@ namespace thalweg::pipeline {
 /// \throws IoError
 void write_qgis_files(make::Made const& made, std::string const& title, io::OutputFolder const& out);
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::report

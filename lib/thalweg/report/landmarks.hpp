@@ -13,7 +13,7 @@
 #include <thalweg/make/terrain.hpp>
 #include <thalweg/recipe/recipe.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::report {
 
 /// \return [m] the lowest and the highest of the heights that are numbers; nothing: there is none
 std::optional<std::pair<double, double>> height_range(Raster<float> const& dem);
@@ -53,4 +53,4 @@ std::optional<Sea> sea_of(recipe::Plan const& plan, make::Planform const& planfo
 /// \return the sea of such a terrain; nothing for other ones
 std::optional<Sea> sea_of(recipe::Recipe const& made);
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::report

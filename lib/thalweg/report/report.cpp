@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/report/report.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@
 #include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/recipe/stages.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::report {
 namespace {
 
 using nlohmann::ordered_json;
@@ -575,4 +575,4 @@ std::string certificate_json(measure::Certificate const& certificate) {
     return certificate_object(certificate).dump();
 }
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::report

@@ -12,9 +12,9 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/io/raster/read_drawable.hpp>
-#include <thalweg/pipeline/report/pictures.hpp>
+#include <thalweg/report/pictures.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::report {
 
 struct ReadSceneParams {
     std::string source;                                          ///< a folder written by make, or a DEM
@@ -35,4 +35,4 @@ struct SceneRead {
 /// network::import_lines
 SceneRead read_scene(ReadSceneParams const& params, Run const& run);
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::report

@@ -12,10 +12,10 @@
 #include <thalweg/io/qgis/project.hpp>
 #include <thalweg/io/qgis/styles.hpp>
 #include <thalweg/make/file_values.hpp>
-#include <thalweg/pipeline/report/internal/qgis_files.hpp>
-#include <thalweg/pipeline/report/landmarks.hpp>
+#include <thalweg/report/internal/qgis_files.hpp>
+#include <thalweg/report/landmarks.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::report {
 
 namespace {
 
@@ -140,4 +140,4 @@ void write_qgis_files(make::Made const& made, std::string const& title, io::Outp
     io::write_qgis_project(project, out.path("project.qgz"));
 }
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::report

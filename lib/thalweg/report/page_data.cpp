@@ -16,12 +16,12 @@
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/gdal/packed.hpp>
 #include <thalweg/make/laws.hpp>
-#include <thalweg/pipeline/report/landmarks.hpp>
-#include <thalweg/pipeline/report/live_page.hpp>
-#include <thalweg/pipeline/report/page.hpp>
-#include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/report/landmarks.hpp>
+#include <thalweg/report/live_page.hpp>
+#include <thalweg/report/page.hpp>
+#include <thalweg/report/report.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::report {
 namespace {
 
 using nlohmann::ordered_json;
@@ -613,4 +613,4 @@ std::string page_data(make::Made const& t, PageParams const& params, std::option
     return without_tags(data.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
 }
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::report

@@ -15,10 +15,10 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/flow/route.hpp>
 #include <thalweg/make/make.hpp>
-#include <thalweg/pipeline/report/landmarks.hpp>
-#include <thalweg/pipeline/report/pictures.hpp>
+#include <thalweg/report/landmarks.hpp>
+#include <thalweg/report/pictures.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::report {
 
 struct PageParams {
     double contour_interval_m = 0.0;                           ///< [m] of the page's first contours; 0: no surface
@@ -139,4 +139,4 @@ std::string page_data(make::Made const& made, PageParams const& params, std::opt
 std::string scene_page(Scene const& scene, std::vector<std::string> const& notes, std::string const& command,
                        Run const& run = {});
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::report

@@ -4,9 +4,9 @@
 
 #include <string_view>
 
-namespace thalweg::pipeline {
+namespace thalweg::report {
 
 /// The bytes of tests/data/awkward.bin, embedded as the report page is.
 std::string_view awkward_bytes();
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::report

@@ -4,9 +4,9 @@
 
 #include <string_view>
 
-namespace thalweg::pipeline {
+namespace thalweg::report {
 
 /// The report page built into the library, with unfilled markers: the bytes of web/dist/report.html.
 std::string_view page_template();
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::report

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/report/landmarks.hpp>
+#include <thalweg/report/landmarks.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include <thalweg/measure/peaks/orometry.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::report {
 
 std::optional<std::pair<double, double>> height_range(Raster<float> const& dem) {
     double low = std::numeric_limits<double>::infinity();
@@ -96,4 +96,4 @@ std::optional<Sea> sea_of(recipe::Recipe const& made) {
     return balanced ? sea_beside(made.surface->equilibrium.edge) : std::nullopt;
 }
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::report

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/report/pictures.hpp>
+#include <thalweg/report/pictures.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/measure/relief/hypsometry.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::report {
 
 namespace {
 
@@ -156,7 +156,7 @@ std::string missing_for(PictureKind kind, Scene const& scene) {
 
 draw::Picture draw_picture(PictureKind kind, Scene const& scene, Look const& look, Run const& run) {
     if (std::string const missing = missing_for(kind, scene); !missing.empty()) {
-        throw BadInput(fmt::format("pipeline.draw_picture: no {} can be drawn, {}", name_of(kind), missing));
+        throw BadInput(fmt::format("report.draw_picture: no {} can be drawn, {}", name_of(kind), missing));
     }
     switch (kind) {
     case PictureKind::map: return draw_map(scene, look, run);
@@ -181,4 +181,4 @@ draw::Picture draw_picture(PictureKind kind, Scene const& scene, Look const& loo
     return draw::curve(scene.increments, params);
 }
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::report

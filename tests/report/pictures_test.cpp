@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/report/pictures.hpp>
+#include <thalweg/report/pictures.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -8,12 +8,12 @@
 
 #include <gtest/gtest.h>
 
-namespace thalweg::pipeline {
+namespace thalweg::report {
 namespace {
 
 /// A slope with a hole in the east.
-Scene slope() {
-    Scene scene;
+report::Scene slope() {
+    report::Scene scene;
     scene.dem.emplace(Grid{60, 40, 30.0, 500000.0, 5000000.0, "EPSG:32631"});
     for (std::int64_t i = 0; i < scene.dem->cells(); ++i) {
         Cell const c = scene.dem->grid().at(i);
@@ -27,28 +27,28 @@ Scene slope() {
 } // namespace
 
 TEST(Pictures, AMapShowsItsSeaItsLakesAndWhereItIs) {
-    Scene scene = slope();
-    Look look;
+    report::Scene scene = slope();
+    report::Look look;
     look.format = draw::Format::svg;
     look.width_px = 600;
-    std::string const dry = draw_picture(PictureKind::map, scene, look).bytes;
-    EXPECT_EQ(draw_picture(PictureKind::map, scene, look).bytes, dry);
-    scene.sea = Sea{};
-    std::string const with_sea = draw_picture(PictureKind::map, scene, look).bytes;
+    std::string const dry = report::draw_picture(report::PictureKind::map, scene, look).bytes;
+    EXPECT_EQ(report::draw_picture(report::PictureKind::map, scene, look).bytes, dry);
+    scene.sea = report::Sea{};
+    std::string const with_sea = report::draw_picture(report::PictureKind::map, scene, look).bytes;
     EXPECT_NE(with_sea, dry);
     scene.lakes = Mask(scene.dem->grid());
-    EXPECT_EQ(draw_picture(PictureKind::map, scene, look).bytes, with_sea);
+    EXPECT_EQ(report::draw_picture(report::PictureKind::map, scene, look).bytes, with_sea);
     for (std::int64_t row = 10; row < 20; ++row) {
         scene.lakes[Cell{20, row}] = scene.lakes[Cell{21, row}] = 1;
     }
-    EXPECT_NE(draw_picture(PictureKind::map, scene, look).bytes, with_sea);
+    EXPECT_NE(report::draw_picture(report::PictureKind::map, scene, look).bytes, with_sea);
     scene = slope();
     Grid grid = scene.dem->grid();
     grid.crs = "EPSG:32632";
     Raster<float> moved(grid);
     std::copy(scene.dem->values().begin(), scene.dem->values().end(), moved.values().begin());
     scene.dem = std::move(moved);
-    EXPECT_NE(draw_picture(PictureKind::map, scene, look).bytes, dry);
+    EXPECT_NE(report::draw_picture(report::PictureKind::map, scene, look).bytes, dry);
 }
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::report

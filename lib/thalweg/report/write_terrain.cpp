@@ -31,15 +31,15 @@
 #include <thalweg/make/rivers.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/planform/split_confluences.hpp>
-#include <thalweg/pipeline/report/internal/qgis_files.hpp>
-#include <thalweg/pipeline/report/landmarks.hpp>
-#include <thalweg/pipeline/report/page.hpp>
-#include <thalweg/pipeline/report/pictures.hpp>
-#include <thalweg/pipeline/report/report.hpp>
 #include <thalweg/recipe/recipe_files.hpp>
 #include <thalweg/recipe/stages.hpp>
+#include <thalweg/report/internal/qgis_files.hpp>
+#include <thalweg/report/landmarks.hpp>
+#include <thalweg/report/page.hpp>
+#include <thalweg/report/pictures.hpp>
+#include <thalweg/report/report.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::report {
 
 namespace {
 
@@ -194,7 +194,7 @@ public:
     }
     std::vector<Summit> const& summits(Run const& run) {
         std::call_once(summits_made_,
-                       [&] { summits_ = pipeline::summits(made_.terrain.surface->dem, summits_named, run); });
+                       [&] { summits_ = report::summits(made_.terrain.surface->dem, summits_named, run); });
         return summits_;
     }
 
@@ -389,14 +389,13 @@ draw::Picture comparison_against(make::Against const& against, make::Terrain con
 }
 
 void write_rivers(make::Made const& made, std::string const& path, Run const& run) {
-    refuse_if<BadInput>(!made.recipe.network,
-                        "pipeline.write_rivers: the recipe has no [network]: there are no rivers");
+    refuse_if<BadInput>(!made.recipe.network, "report.write_rivers: the recipe has no [network]: there are no rivers");
     with_tables(made, [&](io::NetworkTables const& tables) { io::write_geopackage(tables, path, run); });
 }
 
 draw::Picture draw_map(make::Made const& made, DrawMapParams const& params, Run const& run) {
     refuse_if<BadInput>(!made.terrain.surface,
-                        "pipeline.draw_map: the recipe asks for rivers alone: there is no terrain to draw");
+                        "report.draw_map: the recipe asks for rivers alone: there is no terrain to draw");
     draw::MapParams map;
     map.title = params.title.value_or(recipe::title_of(made.recipe));
     map.width_px = params.width_px;
@@ -429,4 +428,4 @@ make::Made make_folder(recipe::Recipe const& recipe, std::string const& folder, 
     return made;
 }
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::report

@@ -16,7 +16,7 @@
 #include <thalweg/measure/drainage/certificate.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::report {
 
 /// \internal
 /// Formats report.json of a terrain: version, recipe, timings_s, cpu_s, peak_rss_mb, network, dem, checks, findings,
@@ -129,4 +129,4 @@ bool is_repair(Finding const& finding);
 /// \internal
 std::string certificate_json(measure::Certificate const& certificate);
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::report

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/report/page.hpp>
+#include <thalweg/report/page.hpp>
 
 #include <algorithm>
 #include <array>
@@ -19,9 +19,9 @@
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/gdal/packed.hpp>
 #include <thalweg/measure/topology/topology.hpp>
-#include <thalweg/pipeline/report/internal/page_template.hpp>
+#include <thalweg/report/internal/page_template.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::report {
 namespace {
 
 constexpr std::int64_t most_values = 1'500'000;
@@ -49,7 +49,7 @@ std::vector<double> means(Raster<float> const& dem, PageHeights const& page, Run
             auto const row = dem.row(r);
             for (std::size_t c = 0; c < row.size(); ++c) {
                 refuse_if<BadInput>(std::isinf(row[c]),
-                                    "pipeline.page_heights: the height at column {}, row {} is infinite; mark cells "
+                                    "report.page_heights: the height at column {}, row {} is infinite; mark cells "
                                     "without data as NaN",
                                     c, r);
                 if (!std::isnan(row[c])) {
@@ -257,15 +257,15 @@ bool on_the_way(Point a, Point b, Point c) {
 }
 
 std::vector<Point> points_of(std::span<Vec2 const> line, Grid const& grid, double step_m, std::size_t number) {
-    refuse_if<BadInput>(line.size() < 2, "pipeline.page_lines: line {} has {} vertices; give two or more", number,
+    refuse_if<BadInput>(line.size() < 2, "report.page_lines: line {} has {} vertices; give two or more", number,
                         line.size());
     std::vector<Point> points;
     for (std::size_t i = 0; i < line.size(); ++i) {
         double const x = std::floor((line[i].x - grid.west) / step_m + 0.5);
         double const y = std::floor((grid.north - line[i].y) / step_m + 0.5);
         if (!(std::fabs(x) < farthest && std::fabs(y) < farthest)) {
-            throw BadInput(fmt::format("pipeline.page_lines: vertex {} of line {} lies at ({}, {}), far from the grid",
-                                       i, number, line[i].x, line[i].y));
+            throw BadInput(fmt::format("report.page_lines: vertex {} of line {} lies at ({}, {}), far from the grid", i,
+                                       number, line[i].x, line[i].y));
         }
         Point const p{static_cast<std::int64_t>(x), static_cast<std::int64_t>(y)};
         if (!points.empty() && points.back() == p) {
@@ -322,7 +322,7 @@ struct Place {
 std::size_t find_once(std::string_view page, std::string_view marker) {
     std::size_t const at = page.find(marker);
     if (at == std::string_view::npos || page.find(marker, at + 1) != std::string_view::npos) {
-        throw std::logic_error(fmt::format("pipeline.fill_markers: the page holds {} {}; rebuild web/dist",
+        throw std::logic_error(fmt::format("report.fill_markers: the page holds {} {}; rebuild web/dist",
                                            at == std::string_view::npos ? "no" : "more than one", marker));
     }
     return at;
@@ -475,7 +475,7 @@ make::Assessment assessment_of(Scene const& scene, make::Terrain const& terrain,
 
 std::string scene_page(Scene const& scene, std::vector<std::string> const& notes, std::string const& command,
                        Run const& run) {
-    refuse_if<BadInput>(!scene.dem, "pipeline.scene_page: there is no DEM to show");
+    refuse_if<BadInput>(!scene.dem, "report.scene_page: there is no DEM to show");
     make::Made made;
     made.recipe.output.title = scene.title;
     made.terrain = terrain_of(scene, run);
@@ -491,4 +491,4 @@ std::string scene_page(Scene const& scene, std::vector<std::string> const& notes
     return page(made, params, run);
 }
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::report

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/report/page.hpp>
+#include <thalweg/report/page.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -16,21 +16,22 @@
 #include <measure/dems.hpp>
 #include <network/networks.hpp>
 #include <nlohmann/json.hpp>
-#include <pipeline/awkward.hpp>
-#include <pipeline/page_decoder.hpp>
 #include <rapidcheck.h>
+#include <report/awkward.hpp>
+#include <report/page_decoder.hpp>
 #include <support.hpp>
 #include <unpacked.hpp>
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/order/order.hpp>
-#include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/report/report.hpp>
 
 namespace page_test {
 
 using namespace thalweg;
 using namespace thalweg::recipe;
 using namespace thalweg::make;
+using namespace thalweg::report;
 using namespace thalweg::pipeline;
 using nlohmann::json;
 
@@ -394,7 +395,7 @@ TEST(PageHeights, OfOneHeightAndOfNone) {
     EXPECT_EQ(std::ranges::count(decoded, static_cast<double>(-0.7F)), 11) << "exactly";
     dem[5] = std::numeric_limits<float>::infinity();
     EXPECT_TRUE(test::refused(
-        "pipeline.page_heights", [&] { page_heights(dem); }, "column 2, row 1"));
+        "report.page_heights", [&] { page_heights(dem); }, "column 2, row 1"));
 }
 
 TEST(PageHeights, TheSmallestSquaresThatAreFewEnough) {
@@ -448,7 +449,7 @@ TEST(PageLines, RefusesWhatIsNoLineHere) {
              {{good, {corner, {corner.x + 0x1p29 * 0.0625 * grid.cell_m, corner.y}}}, "vertex 1 of line 2"},
              {{good, {corner, {1e300, 0.0}}}, "vertex 1 of line 2"}}) {
         EXPECT_TRUE(test::refused(
-            "pipeline.page_lines", [&] { page_of(lines, grid); }, words));
+            "report.page_lines", [&] { page_of(lines, grid); }, words));
     }
 }
 
@@ -469,7 +470,7 @@ TEST(PageLines, EveryVertexWithinHalfAStepAndNoDrift) {
             }
         }
         PageLines const page = page_of(lines, frame);
-        RC_ASSERT(page.step == static_cast<double>(pipeline::page_cells(frame)) / 16.0);
+        RC_ASSERT(page.step == static_cast<double>(report::page_cells(frame)) / 16.0);
         auto const decoded = page_decoder::lines(page.bytes, page.vertices);
         RC_ASSERT(decoded.size() == lines.size());
         for (std::size_t l = 0; l < lines.size(); ++l) {
@@ -496,7 +497,7 @@ TEST(FillPage, AMissingOrSecondMarkerIsAnErrorOfTheBuild) {
 }
 
 TEST(Embed, AnyByteSurvives) {
-    std::string_view const bytes = thalweg::pipeline::awkward_bytes();
+    std::string_view const bytes = thalweg::report::awkward_bytes();
     std::ifstream file(THALWEG_SOURCE_DIR "/tests/data/awkward.bin", std::ios::binary);
     EXPECT_TRUE(bytes == std::string(std::istreambuf_iterator<char>(file), {}));
     ASSERT_GT(bytes.size(), 256U);

@@ -12,9 +12,9 @@
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/draw/map.hpp>
 #include <thalweg/draw/picture.hpp>
-#include <thalweg/pipeline/report/landmarks.hpp>
+#include <thalweg/report/landmarks.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::report {
 
 enum class PictureKind : std::uint8_t { map, profile, curve, hypsometry, sections, wireframe };
 
@@ -77,4 +77,4 @@ draw::Picture draw_land(draw::MapSheet sheet, std::optional<Sea> const& sea, std
 /// \return 1, 2 or 5 times a power of ten that gives about twenty contours
 double round_interval(double relief_m);
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::report

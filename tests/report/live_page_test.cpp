@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/report/live_page.hpp>
+#include <thalweg/report/live_page.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -15,13 +15,14 @@
 #include <support.hpp>
 #include <unpacked.hpp>
 
-#include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/report/report.hpp>
 
 namespace live_page_test {
 
 using namespace thalweg;
 using namespace thalweg::recipe;
 using namespace thalweg::make;
+using namespace thalweg::report;
 using namespace thalweg::pipeline;
 
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/report/read_scene.hpp>
+#include <thalweg/report/read_scene.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -22,11 +22,11 @@
 #include <thalweg/network/import/import_lines.hpp>
 #include <thalweg/network/import/prepare_lines.hpp>
 #include <thalweg/network/order/order.hpp>
-#include <thalweg/pipeline/report/page.hpp>
 #include <thalweg/recipe/recipe.hpp>
+#include <thalweg/report/page.hpp>
 #include <thalweg/surface/dilation/increment.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -41,7 +41,7 @@ ElevatedNetwork network_of(NetworkFile const& file, std::string const& name) {
     for (NetworkFile::FileNode const& node : file.nodes) {
         NodeId const id = plan.add_node({node.at.x, node.at.y});
         refuse_if<BadInput>(!nodes.emplace(node.id, id).second,
-                            "pipeline.read_scene: {}: node {} is there twice; check the network (thalweg check)", name,
+                            "report.read_scene: {}: node {} is there twice; check the network (thalweg check)", name,
                             node.id);
         out.node_z.push_back(node.at.z);
     }
@@ -49,7 +49,7 @@ ElevatedNetwork network_of(NetworkFile const& file, std::string const& name) {
         auto const from = nodes.find(arc.from_node);
         auto const to = nodes.find(arc.to_node);
         refuse_if<BadInput>(from == nodes.end() || to == nodes.end() || arc.line.size() < 2,
-                            "pipeline.read_scene: {}: arc {} lacks a node or a line; check the network (thalweg check)",
+                            "report.read_scene: {}: arc {} lacks a node or a line; check the network (thalweg check)",
                             name, arc.id);
         Arc drawn;
         std::vector<double> z;
@@ -174,7 +174,7 @@ SceneRead read_folder(ReadSceneParams const& params, Run const& run) {
     std::string const recipe = (folder / "recipe.toml").string();
     std::string const report = (folder / "report.json").string();
     if (!fs::exists(dem) && !fs::exists(rivers)) {
-        throw BadInput(fmt::format("pipeline.read_scene: {} holds neither dem.tif nor network.gpkg: name a folder "
+        throw BadInput(fmt::format("report.read_scene: {} holds neither dem.tif nor network.gpkg: name a folder "
                                    "written by make, or a raster",
                                    folder.string()));
     }
@@ -227,7 +227,7 @@ SceneRead read_scene(ReadSceneParams const& params, Run const& run) {
     }
     if (!network.empty()) {
         if (!out.scene.dem) {
-            throw BadInput(fmt::format("pipeline.read_scene: there is no DEM to lay the rivers of {} on", network));
+            throw BadInput(fmt::format("report.read_scene: there is no DEM to lay the rivers of {} on", network));
         }
         out.scene.network = rivers_on(*out.scene.dem, network, out.findings, run);
     }
@@ -237,4 +237,4 @@ SceneRead read_scene(ReadSceneParams const& params, Run const& run) {
     return out;
 }
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::report

@@ -9,10 +9,10 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/make/make.hpp>
-#include <thalweg/pipeline/report/landmarks.hpp>
+#include <thalweg/report/landmarks.hpp>
 
 // The page while a terrain is edited: what report.html has packed in it comes in parts (web/README.md).
-namespace thalweg::pipeline {
+namespace thalweg::report {
 
 /// A page, and what it may do.
 struct LivePage {
@@ -78,4 +78,4 @@ struct ClusterArms {
 /// \return nothing where the rivers are no branch of a cluster
 std::optional<ClusterArms> cluster_arms(recipe::Plan const& plan, std::int64_t side, Run const& run = {});
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::report

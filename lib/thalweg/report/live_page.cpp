@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/report/live_page.hpp>
+#include <thalweg/report/live_page.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,11 +13,11 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/gdal/packed.hpp>
 #include <thalweg/make/planform.hpp>
-#include <thalweg/pipeline/report/internal/page_template.hpp>
-#include <thalweg/pipeline/report/page.hpp>
 #include <thalweg/recipe/recipe_keys.hpp>
+#include <thalweg/report/internal/page_template.hpp>
+#include <thalweg/report/page.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::report {
 
 LivePage live_page(std::string const& title, std::string const& studio) {
     static constexpr std::string_view before = R"(http-equiv="Content-Security-Policy" content=")";
@@ -121,4 +121,4 @@ std::optional<ClusterArms> cluster_arms(recipe::Plan const& plan, std::int64_t s
     return arms;
 }
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::report
