@@ -9,7 +9,6 @@
 #include <thalweg/pipeline/commands/deform.hpp>
 #include <thalweg/pipeline/commands/draw.hpp>
 #include <thalweg/pipeline/commands/ensemble.hpp>
-#include <thalweg/pipeline/commands/export.hpp>
 #include <thalweg/pipeline/commands/grow.hpp>
 #include <thalweg/pipeline/commands/make.hpp>
 #include <thalweg/pipeline/commands/measure.hpp>

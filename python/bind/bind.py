@@ -31,6 +31,7 @@ MODULES = [
     "recipe",
     "make",
     "report",
+    "exports",
     "pipeline",
 ]
 

@@ -25,6 +25,7 @@ THALWEG_OF_MODULE(io)
 THALWEG_OF_MODULE(recipe)
 THALWEG_OF_MODULE(make)
 THALWEG_OF_MODULE(report)
+THALWEG_OF_MODULE(exports)
 THALWEG_OF_MODULE(pipeline)
 #undef THALWEG_OF_MODULE
 
@@ -37,7 +38,7 @@ struct Module {
     void (*define)(py::module_&);
 };
 
-constexpr std::array<Module, 15> modules = {{
+constexpr std::array<Module, 16> modules = {{
     {"geometry", "Lines and points: intersections, TINs, Voronoi diagrams, medial lines.", declare_geometry,
      define_geometry},
     {"solver", "Values of the solvers that stages take.", declare_solver, define_solver},
@@ -56,6 +57,7 @@ constexpr std::array<Module, 15> modules = {{
     {"terrain", "The stages of a terrain: its rivers, their heights, the surface, its water, what is measured of it.",
      declare_make, define_make},
     {"report", "The folder of a terrain: files, report and pictures.", declare_report, define_report},
+    {"export", "Files for game engines, 3D programs, printers and the web.", declare_exports, define_exports},
     {"pipeline", "Whole terrains, and the commands of the program.", declare_pipeline, define_pipeline},
 }};
 

@@ -29,7 +29,7 @@ REFERRING = {
     "recipe/recipe_files.hpp": "a row of a table of literals",
     "pipeline/ensemble/draw_ensemble.hpp": "names are literals",
     "pipeline/commands/convert.hpp": "names are literals",
-    "pipeline/commands/export.hpp": "names are literals",
+    "export/export.hpp": "names are literals",
 }
 # A member: indented by one level, without parentheses, of a type that owns nothing.
 MEMBER = re.compile(r"^    (?:[\w:<> ]+ const[*&]|[\w:<>]+[*&]|std::(?:string_view|span<[^;]*>|reference_wrapper<[^;]*>))"

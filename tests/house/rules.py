@@ -12,7 +12,7 @@ import sys
 # those before them.
 BELOW = ["core", "geometry", "solver", "flow"]
 STAGES = ["network", "skeleton", "surface", "fractal", "blend", "measure", "draw", "io"]
-PROGRAM = ["recipe", "make", "report", "pipeline"]
+PROGRAM = ["recipe", "make", "report", "export", "pipeline"]
 MODULES = {"core": [], "geometry": ["core"], "solver": ["core"], "flow": ["core"],
            "studio": BELOW + STAGES + PROGRAM + ["serve"]}
 MODULES.update({name: BELOW + STAGES + PROGRAM[:number] for number, name in enumerate(PROGRAM)})
@@ -35,6 +35,7 @@ FOREIGN = {
     "recipe": ["toml++/", "nlohmann/"],
     "make": ["nlohmann/"],
     "report": ["toml++/", "nlohmann/"],
+    "export": ["nlohmann/"],
     "pipeline": ["nlohmann/"],
     "studio": ["nlohmann/"],
     "tools": ["CLI/", "nlohmann/", "spdlog/", "mpi.h"],

@@ -10,7 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <thalweg/pipeline/commands/export.hpp>
+#include <thalweg/export/export.hpp>
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
@@ -20,8 +20,8 @@ namespace thalweg::tools {
 
 namespace {
 
-int export_terrain(pipeline::ExportParams const& params, Session const& session) {
-    pipeline::ExportResult const made = pipeline::run_export(params, session.run);
+int export_terrain(exports::ExportParams const& params, Session const& session) {
+    exports::ExportResult const made = exports::run_export(params, session.run);
     session.run.tell("export",
                      fmt::format("{} x {}, {:.6g} to {:.6g} m", made.width, made.height, made.min_m, made.max_m));
     auto json = nlohmann::ordered_json::parse(made.description);
@@ -38,7 +38,7 @@ std::optional<std::int64_t> side_in(std::string_view word) {
 }
 
 /// Explains why a word is not a size; "": it is one.
-std::string take_size(std::string const& word, pipeline::ExportParams& params) {
+std::string take_size(std::string const& word, exports::ExportParams& params) {
     std::size_t const cross = word.find('x');
     params.width = side_in(std::string_view(word).substr(0, cross));
     params.height = cross == std::string::npos ? params.width : side_in(std::string_view(word).substr(cross + 1));
@@ -47,8 +47,8 @@ std::string take_size(std::string const& word, pipeline::ExportParams& params) {
 }
 
 /// Explains why a word is no number of tiles; "": it is one.
-std::string take_tiles(std::string const& word, pipeline::ExportParams& params) {
-    pipeline::ExportParams read;
+std::string take_tiles(std::string const& word, exports::ExportParams& params) {
+    exports::ExportParams read;
     if (!take_size(word, read).empty()) {
         return fmt::format("'{}' is not N or ACROSSxDOWN, such as 2 or 4x2", word);
     }
@@ -58,8 +58,8 @@ std::string take_tiles(std::string const& word, pipeline::ExportParams& params) 
 }
 
 void add_size_option(CLI::App& app, char const* name, char const* meaning,
-                     std::shared_ptr<pipeline::ExportParams> const& params,
-                     std::string (*take)(std::string const&, pipeline::ExportParams&)) {
+                     std::shared_ptr<exports::ExportParams> const& params,
+                     std::string (*take)(std::string const&, exports::ExportParams&)) {
     app.add_option_function<std::string>(
            name,
            [params, name, take](std::string const& word) {
@@ -71,7 +71,7 @@ void add_size_option(CLI::App& app, char const* name, char const* meaning,
         ->type_name("N|WxH");
 }
 
-void add_preset_options(CLI::App& app, std::shared_ptr<pipeline::ExportParams> const& params) {
+void add_preset_options(CLI::App& app, std::shared_ptr<exports::ExportParams> const& params) {
     add_size_option(app, "--tiles", "With --for: cut heights and masks into this many tiles: N a side, or ACROSSxDOWN.",
                     params, take_tiles);
     add_list(
@@ -90,7 +90,7 @@ void add_preset_options(CLI::App& app, std::shared_ptr<pipeline::ExportParams> c
 } // namespace
 
 Command add_export(CLI::App& app, Session& session) {
-    auto const params = std::make_shared<pipeline::ExportParams>();
+    auto const params = std::make_shared<exports::ExportParams>();
     app.add_option("SOURCE", params->source, "A folder written by make, or any height raster GDAL reads.")
         ->type_name("FILE")
         ->required();
@@ -99,9 +99,9 @@ Command add_export(CLI::App& app, Session& session) {
                    "folder, with export.json in it.")
         ->required();
     auto* const format = app.add_option(
-        "--format", params->format, names_in_words(pipeline::export_formats()) + ". Default: by the file extension.");
+        "--format", params->format, names_in_words(exports::export_formats()) + ". Default: by the file extension.");
     app.add_option("--for", params->preset,
-                   "Write a folder of what this program imports: " + names_in_words(pipeline::export_presets()) + ".")
+                   "Write a folder of what this program imports: " + names_in_words(exports::export_presets()) + ".")
         ->excludes(format);
     add_size_option(
         app, "--size",
@@ -116,11 +116,11 @@ Command add_export(CLI::App& app, Session& session) {
         "cell; of print3d [mm], default 3.");
     app.add_option(
         "--rim", params->rim,
-        "Treat cells without data that are connected with the border: " + names_in_words(pipeline::rim_gaps()) +
+        "Treat cells without data that are connected with the border: " + names_in_words(exports::rim_gaps()) +
             ". cut takes the largest rectangle without them, nearest fills them from the nearest cells, "
             "minimum with the lowest height, sea with --sea-level. Default: cut.");
     app.add_option("--holes", params->holes,
-                   "Treat cells without data that land encloses: " + names_in_words(pipeline::enclosed_gaps()) +
+                   "Treat cells without data that land encloses: " + names_in_words(exports::enclosed_gaps()) +
                        ". shore makes each gap level at the lowest cell beside it. Default: shore. Without --rim, "
                        "--holes and --sea-level, glb, obj and --for web leave cells without data open.");
     app.add_option("--sea-level", params->sea_level_m,

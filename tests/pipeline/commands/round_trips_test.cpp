@@ -15,14 +15,15 @@
 #include <support.hpp>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/export/export.hpp>
 #include <thalweg/io/mesh/tin.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/io/sources/sources.hpp>
-#include <thalweg/pipeline/commands/export.hpp>
 
 namespace round_trips_test {
 
 using namespace thalweg;
+using namespace thalweg::exports;
 using namespace thalweg::pipeline;
 
 namespace {

@@ -9,18 +9,18 @@
 #include <thalweg/core/lattice.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/export/internal/export_parts.hpp>
+#include <thalweg/export/internal/print_export.hpp>
 #include <thalweg/io/mesh/lattice_files.hpp>
-#include <thalweg/pipeline/commands/internal/export_parts.hpp>
-#include <thalweg/pipeline/commands/internal/print_export.hpp>
 #include <thalweg/report/landmarks.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::exports {
 namespace {
 
 constexpr double finest_print_mm = 0.1; // steps that printers do not show
 
 void require_print(PrintParams const& params) {
-    char const* const who = "pipeline.write_print";
+    char const* const who = "export.write_print";
     require_in(who, "longest side", params.longest_mm, Range::between(10.0, 2000.0), "mm");
     require_in(who, "base", params.base_mm, Range::between(0.2, 100.0), "mm");
     require_in(who, "exaggeration", params.exaggeration, Range::above(0.0));
@@ -35,7 +35,7 @@ Raster<float> without_holes(report::Scene const& scene) {
     }
     auto const holes = std::ranges::count_if(dem.values(), is_hole);
     refuse_if<BadInput>(holes > 0,
-                        "pipeline.write_print: {} of {} cells have no data: a solid has no holes; close them first "
+                        "export.write_print: {} of {} cells have no data: a solid has no holes; close them first "
                         "(surface.close_gaps)",
                         holes, dem.cells());
     return dem;
@@ -84,10 +84,10 @@ std::vector<Finding> print_findings(PrintExport const& made, PrintParams const& 
 PrintExport write_print(report::Scene const& scene, PrintParams const& params, io::OutputFolder const& out,
                         Run const& run) {
     require_print(params);
-    refuse_if<BadInput>(!scene.dem, "pipeline.write_print: there is no DEM");
+    refuse_if<BadInput>(!scene.dem, "export.write_print: there is no DEM");
     Raster<float> const dem = without_holes(scene);
     refuse_if<BadInput>(dem.width() < 2 || dem.height() < 2,
-                        "pipeline.write_print: the DEM has {} x {} cells: at least 2 x 2 are needed", dem.width(),
+                        "export.write_print: the DEM has {} x {} cells: at least 2 x 2 are needed", dem.width(),
                         dem.height());
     Lattice const ground = lattice_to_print(dem, params, run);
     Vec2 const extent = ground.extent_m();
@@ -115,4 +115,4 @@ PrintExport write_print(report::Scene const& scene, PrintParams const& params, i
     return made;
 }
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::exports

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/commands/internal/web_export.hpp>
+#include <thalweg/export/internal/web_export.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -19,6 +19,7 @@ namespace web_export_test {
 
 using namespace thalweg;
 using namespace thalweg::report;
+using namespace thalweg::exports;
 using namespace thalweg::pipeline;
 
 namespace {

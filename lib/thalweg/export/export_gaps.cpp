@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/commands/internal/export_gaps.hpp>
+#include <thalweg/export/internal/export_gaps.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/surface/gaps/close_gaps.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::exports {
 namespace {
 
 /// The entry of a table that a word names.
@@ -29,7 +29,7 @@ template <class Names> auto named_gaps(Names const& table, std::string const& wo
         }
         names.emplace_back(known.name);
     }
-    throw BadParameter(fmt::format("pipeline.run_export: {} '{}' is unknown: use {}.{}", option, word,
+    throw BadParameter(fmt::format("export.run_export: {} '{}' is unknown: use {}.{}", option, word,
                                    fmt::join(names, ", "), did_you_mean(word, names)));
 }
 
@@ -191,15 +191,15 @@ bool asks_for_gaps(ExportParams const& params) {
 
 void require_gap_options(ExportParams const& params) {
     surface::CloseGapsParams const gaps = gap_params(params);
-    require_in("pipeline.run_export", "sea-level", params.sea_level_m.value_or(0.0), Range::finite(), "m");
+    require_in("export.run_export", "sea-level", params.sea_level_m.value_or(0.0), Range::finite(), "m");
     refuse_if<BadParameter>(gaps.rim == surface::RimGaps::sea && !gaps.sea_m,
-                            "pipeline.run_export: --rim sea needs the height of the sea: --sea-level 0");
+                            "export.run_export: --rim sea needs the height of the sea: --sea-level 0");
 }
 
 void close_gaps_of(report::Scene& scene, ExportParams const& params, ExportResult& made, Run const& run) {
     if (scene.sea) {
         refuse_if<BadInput>(asks_for_gaps(params),
-                            "pipeline.run_export: {} has a sea at {:.6g} m, by its recipe, and its cells without data "
+                            "export.run_export: {} has a sea at {:.6g} m, by its recipe, and its cells without data "
                             "are that sea: leave out --rim, --holes and --sea-level",
                             params.source, scene.sea->level_m);
         return;
@@ -281,4 +281,4 @@ std::vector<RiverSpline> rivers_inside(std::vector<RiverSpline> const& rivers, G
     return out;
 }
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::exports

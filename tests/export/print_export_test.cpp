@@ -14,12 +14,13 @@
 #include <support.hpp>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/pipeline/commands/internal/print_export.hpp>
+#include <thalweg/export/internal/print_export.hpp>
 
 namespace print_export_test {
 
 using namespace thalweg;
 using namespace thalweg::report;
+using namespace thalweg::exports;
 using namespace thalweg::pipeline;
 
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/commands/internal/glb.hpp>
+#include <thalweg/export/internal/glb.hpp>
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 
 #include <thalweg/core/run/refuse.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::exports {
 namespace {
 
 using GlbJson = nlohmann::ordered_json;
@@ -216,7 +216,7 @@ std::string glb(GlbScene const& scene, Run const& run) {
     std::size_t const size = heads + text.size() + buffer.bytes.size();
     refuse_if<BadInput>(
         size > std::numeric_limits<std::uint32_t>::max(),
-        "pipeline.glb: the file would have {} bytes, GLB holds at most 2^32 - 1: make it smaller (--size)", size);
+        "export.glb: the file would have {} bytes, GLB holds at most 2^32 - 1: make it smaller (--size)", size);
     std::string file;
     file.reserve(size);
     for (std::uint32_t const word :
@@ -231,4 +231,4 @@ std::string glb(GlbScene const& scene, Run const& run) {
     return file;
 }
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::exports

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/commands/internal/web_export.hpp>
+#include <thalweg/export/internal/web_export.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -15,14 +15,14 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/draw/map.hpp>
 #include <thalweg/draw/wireframe.hpp>
+#include <thalweg/export/internal/web_template.hpp>
 #include <thalweg/io/gdal/packed.hpp>
 #include <thalweg/io/raster/dem_derivatives.hpp>
-#include <thalweg/pipeline/commands/internal/web_template.hpp>
 #include <thalweg/report/landmarks.hpp>
 #include <thalweg/report/page.hpp>
 #include <thalweg/report/report.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::exports {
 namespace {
 
 using WebJson = nlohmann::ordered_json;
@@ -211,11 +211,11 @@ std::string web_page(report::Scene const& scene, WebJson const& data, std::strin
 }
 
 void require_web(report::Scene const& scene, WebExportParams const& params) {
-    require_in("pipeline.write_web", "exaggeration", params.exaggeration, Range::above(0.0));
-    require_in("pipeline.write_web", "most_bytes", params.most_bytes, Range::at_least(1));
-    refuse_if<BadInput>(!scene.dem, "pipeline.write_web: there is no DEM");
+    require_in("export.write_web", "exaggeration", params.exaggeration, Range::above(0.0));
+    require_in("export.write_web", "most_bytes", params.most_bytes, Range::at_least(1));
+    refuse_if<BadInput>(!scene.dem, "export.write_web: there is no DEM");
     refuse_if<BadInput>(std::ranges::all_of(scene.dem->values(), [](float z) { return std::isnan(z); }),
-                        "pipeline.write_web: no cell has a height");
+                        "export.write_web: no cell has a height");
 }
 
 } // namespace
@@ -291,4 +291,4 @@ WebExport write_web(report::Scene const& scene, WebExportParams const& params, i
     return made;
 }
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::exports

@@ -9,7 +9,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::exports {
 
 /// What a GLB shows.
 struct GlbScene {
@@ -26,4 +26,4 @@ struct GlbScene {
 /// Source: Khronos, glTF 2.0 Specification (ISO/IEC 12113:2022).
 std::string glb(GlbScene const& scene, Run const& run = {});
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::exports

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/commands/internal/land_masks.hpp>
+#include <thalweg/export/internal/land_masks.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/refuse.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::exports {
 namespace {
 
 constexpr double degrees = 180.0 / portable::pi;
@@ -214,7 +214,7 @@ LandMasks::Beside const& LandMasks::beside(Run const& run) {
         }
     }
     refuse_if<BadInput>(std::ranges::find(marked.values(), 1) == marked.values().end(),
-                        "pipeline.run_export: there are no rivers: masks river_distance and river_width need a folder "
+                        "export.run_export: there are no rivers: masks river_distance and river_width need a folder "
                         "written by make");
     beside_ = Beside{nearest_cells(marked, run), std::move(widths)};
     return *beside_;
@@ -372,4 +372,4 @@ LandMaskMade LandMasks::made(LandMask mask, Run const& run) {
     return cover;
 }
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::exports

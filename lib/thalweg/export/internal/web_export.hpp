@@ -12,7 +12,7 @@
 #include <thalweg/io/raster/web_tiles.hpp>
 #include <thalweg/report/pictures.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::exports {
 
 struct WebExportParams {
     double exaggeration = 1.0;            ///< > 0, of heights when the page opens
@@ -45,4 +45,4 @@ struct WebExport {
 WebExport write_web(report::Scene const& scene, WebExportParams const& params, io::OutputFolder const& out,
                     Run const& run);
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::exports

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/commands/internal/river_splines.hpp>
+#include <thalweg/export/internal/river_splines.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/flow/route.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::exports {
 namespace {
 
 std::vector<double> areas_at_ends(report::Scene const& scene, Run const& run) {
@@ -60,4 +60,4 @@ std::vector<RiverSpline> river_splines(report::Scene const& scene, double runoff
     return out;
 }
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::exports

@@ -14,7 +14,7 @@
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/surface/gaps/close_gaps.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::exports {
 
 enum class ExportFormat : std::uint8_t { png16, r16, r32, exr, glb, obj, stl };
 
@@ -138,4 +138,4 @@ struct ExportResult {
 /// readers
 ExportResult run_export(ExportParams const& params, Run const& run = {});
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::exports

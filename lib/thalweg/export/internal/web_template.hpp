@@ -4,9 +4,9 @@
 
 #include <string_view>
 
-namespace thalweg::pipeline {
+namespace thalweg::exports {
 
 /// The map page built into the library, with unfilled markers: the bytes of web/dist/terrain.html.
 std::string_view web_template();
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::exports

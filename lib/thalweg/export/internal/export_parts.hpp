@@ -8,10 +8,10 @@
 
 #include <thalweg/core/lattice.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/pipeline/commands/export.hpp>
+#include <thalweg/export/export.hpp>
 #include <thalweg/report/pictures.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::exports {
 
 /// Samples or vertices of a row and of a column.
 struct ExportSize {
@@ -37,4 +37,4 @@ bool is_mesh(ExportFormat format);
 /// Runs `thalweg export --for`.
 ExportResult run_export_for(ExportParams const& params, Run const& run);
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::exports

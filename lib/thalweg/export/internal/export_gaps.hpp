@@ -6,11 +6,11 @@
 #include <vector>
 
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/pipeline/commands/export.hpp>
-#include <thalweg/pipeline/commands/internal/river_splines.hpp>
+#include <thalweg/export/export.hpp>
+#include <thalweg/export/internal/river_splines.hpp>
 #include <thalweg/report/pictures.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::exports {
 
 /// Refuses words of --rim and --holes that are none, and a level of the sea that is no number.
 /// \throws BadParameter
@@ -33,4 +33,4 @@ std::string description_of_gaps(ExportResult const& made);
 /// \return the parts inside, in order; parts of one arc have its numbers
 std::vector<RiverSpline> rivers_inside(std::vector<RiverSpline> const& rivers, Grid const& grid, ExportResult& made);
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::exports

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/commands/internal/export_gaps.hpp>
+#include <thalweg/export/internal/export_gaps.hpp>
 
 #include <cmath>
 #include <limits>
@@ -15,6 +15,7 @@ namespace export_gaps_test {
 
 using namespace thalweg;
 using namespace thalweg::report;
+using namespace thalweg::exports;
 using namespace thalweg::pipeline;
 
 namespace {

@@ -9,7 +9,7 @@
 #include <thalweg/core/vec.hpp>
 #include <thalweg/report/pictures.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::exports {
 
 /// An arc as a line of water.
 struct RiverSpline {
@@ -31,4 +31,4 @@ struct RiverSpline {
 /// Source: \cite moody2002, width of rivers by discharge.
 std::vector<RiverSpline> river_splines(report::Scene const& scene, double runoff_mm, Run const& run = {});
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::exports

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/commands/internal/export_parts.hpp>
+#include <thalweg/export/internal/export_parts.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include <thalweg/io/raster/dem_derivatives.hpp>
 #include <thalweg/report/report.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::exports {
 namespace {
 
 void fill_holes(Raster<float>& heights, double level) {
@@ -117,4 +117,4 @@ std::vector<std::vector<Vec3>> rivers_on_mesh(ElevatedNetwork const& network, La
     return out;
 }
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::exports

@@ -12,7 +12,7 @@
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/report/pictures.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::exports {
 
 /// Options of write_print().
 struct PrintParams {
@@ -45,4 +45,4 @@ struct PrintExport {
 PrintExport write_print(report::Scene const& scene, PrintParams const& params, io::OutputFolder const& out,
                         Run const& run);
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::exports

@@ -9,11 +9,11 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/export/internal/river_splines.hpp>
 #include <thalweg/flow/route.hpp>
-#include <thalweg/pipeline/commands/internal/river_splines.hpp>
 #include <thalweg/report/pictures.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::exports {
 
 enum class LandMask : std::uint8_t {
     slope,
@@ -92,4 +92,4 @@ private:
     std::optional<Raster<std::uint8_t>> kinds_;
 };
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::exports
