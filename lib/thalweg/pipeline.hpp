@@ -16,7 +16,3 @@
 #include <thalweg/pipeline/commands/replay.hpp>
 #include <thalweg/pipeline/commands/stats.hpp>
 #include <thalweg/pipeline/commands/tin.hpp>
-#include <thalweg/pipeline/ensemble/draw_ensemble.hpp>
-#include <thalweg/pipeline/ensemble/ensemble.hpp>
-#include <thalweg/pipeline/ensemble/make_members.hpp>
-#include <thalweg/pipeline/ensemble/ranks.hpp>

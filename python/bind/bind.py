@@ -32,6 +32,7 @@ MODULES = [
     "make",
     "report",
     "exports",
+    "ensemble",
     "pipeline",
 ]
 

@@ -26,6 +26,7 @@ THALWEG_OF_MODULE(recipe)
 THALWEG_OF_MODULE(make)
 THALWEG_OF_MODULE(report)
 THALWEG_OF_MODULE(exports)
+THALWEG_OF_MODULE(ensemble)
 THALWEG_OF_MODULE(pipeline)
 #undef THALWEG_OF_MODULE
 
@@ -38,7 +39,7 @@ struct Module {
     void (*define)(py::module_&);
 };
 
-constexpr std::array<Module, 16> modules = {{
+constexpr std::array<Module, 17> modules = {{
     {"geometry", "Lines and points: intersections, TINs, Voronoi diagrams, medial lines.", declare_geometry,
      define_geometry},
     {"solver", "Values of the solvers that stages take.", declare_solver, define_solver},
@@ -58,6 +59,7 @@ constexpr std::array<Module, 16> modules = {{
      declare_make, define_make},
     {"report", "The folder of a terrain: files, report and pictures.", declare_report, define_report},
     {"export", "Files for game engines, 3D programs, printers and the web.", declare_exports, define_exports},
+    {"members", "Many terrains by one recipe.", declare_ensemble, define_ensemble},
     {"pipeline", "Whole terrains, and the commands of the program.", declare_pipeline, define_pipeline},
 }};
 

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from typing import Any
 
-from thalweg import _networks, _show, pipeline
+from thalweg import _networks, _show, members as ensembles
 from thalweg._terrain import Terrain, _recipe_of
 
 
@@ -34,7 +34,7 @@ class Member:
         None where it could not be made.
     """
 
-    def __init__(self, made: pipeline.MadeMember, files: list[_networks.TemporaryPath]) -> None:
+    def __init__(self, made: ensembles.MadeMember, files: list[_networks.TemporaryPath]) -> None:
         row = made.row
         self.number: int = row.member.number
         self.seed: int = row.member.seed
@@ -103,8 +103,8 @@ def ensemble(recipe: object = None, /, members: int | None = None, *, seeds: Seq
     if members is None or members < 1:
         raise ValueError("ensemble: give the number of members, at least 1")
     files: list[_networks.TemporaryPath] = []
-    asked = pipeline.Ensemble(recipe=_recipe_of(recipe, keys, files), members=members,
-                              vary=[pipeline.read_varied_key(f"{key}={_words_of(value)}") for key, value in (vary or {}).items()])
+    asked = ensembles.Ensemble(recipe=_recipe_of(recipe, keys, files), members=members,
+                              vary=[ensembles.read_varied_key(f"{key}={_words_of(value)}") for key, value in (vary or {}).items()])
     return _members(asked, files, threads or os.cpu_count() or 1, _show.progress_of(progress))
 
 
@@ -114,13 +114,13 @@ def _words_of(value: object) -> str:
     return ", ".join(map(str, value)) if isinstance(value, (list, tuple)) else str(value)
 
 
-def _members(asked: pipeline.Ensemble, files: list[_networks.TemporaryPath], threads: int,
+def _members(asked: ensembles.Ensemble, files: list[_networks.TemporaryPath], threads: int,
              report: Callable[[float, str], object] | None) -> Iterator[Member]:
     left = iter(range(asked.members))
     with ThreadPoolExecutor(threads) as pool:
-        running: set[Future[pipeline.MadeMember]] = set()
+        running: set[Future[ensembles.MadeMember]] = set()
         stop = threading.Event()
-        make: Callable[..., pipeline.MadeMember] = pipeline.make_member
+        make: Callable[..., ensembles.MadeMember] = ensembles.make_member
 
         def begin() -> None:
             number = next(left, None)

@@ -27,7 +27,7 @@ REFERRING = {
     "make/laws.hpp": "names are literals, and a row of a table of them",
     "recipe/recipe_keys.hpp": "a row of a table of literals",
     "recipe/recipe_files.hpp": "a row of a table of literals",
-    "pipeline/ensemble/draw_ensemble.hpp": "names are literals",
+    "ensemble/draw_ensemble.hpp": "names are literals",
     "pipeline/commands/convert.hpp": "names are literals",
     "export/export.hpp": "names are literals",
 }

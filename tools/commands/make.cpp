@@ -124,14 +124,14 @@ int make_ensemble(MakeOptions& options, Session& session) {
         fmt::print("{}", forecast_in_words(expected, session.json));
         return Exit::done;
     }
-    std::unique_ptr<pipeline::Ranks> const ranks = join_ranks();
+    std::unique_ptr<ensemble::Ranks> const ranks = join_ranks();
     if (ranks && ranks->rank() > 0) { // the first one speaks for all
         session.quiet = true;
         session.run.log = {};
         session.run.progress = nullptr;
         session.run.found = [](Finding const&) {};
     }
-    pipeline::EnsembleResult const made =
+    ensemble::EnsembleResult const made =
         ranks ? pipeline::run_ensemble_on(*ranks, params, session.run) : pipeline::run_ensemble(params, session.run);
     if (ranks && ranks->rank() > 0) {
         return Exit::done;

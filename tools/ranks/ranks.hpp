@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include <thalweg/pipeline/ensemble/ranks.hpp>
+#include <thalweg/ensemble/ranks.hpp>
 
 namespace thalweg::tools {
 
@@ -19,6 +19,6 @@ int launched_ranks();
 /// Joins the processes that were started together. At the end of its life it waits for all of them.
 /// \return null: this process was started alone
 /// \throws BadInput in a program without MPI
-std::unique_ptr<pipeline::Ranks> join_ranks();
+std::unique_ptr<ensemble::Ranks> join_ranks();
 
 } // namespace thalweg::tools

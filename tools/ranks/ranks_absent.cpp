@@ -10,7 +10,7 @@ std::string mpi_version() {
     return "without MPI";
 }
 
-std::unique_ptr<pipeline::Ranks> join_ranks() {
+std::unique_ptr<ensemble::Ranks> join_ranks() {
     if (launched_ranks() > 1) {
         throw BadInput(
             "this thalweg was built without MPI, and mpirun has started several: start one, share the members "

@@ -21,7 +21,7 @@ constexpr int to_first = 1; ///< tags
 constexpr int to_other = 2;
 constexpr std::int64_t none_left = -1;
 
-class MpiRanks : public pipeline::Ranks {
+class MpiRanks : public ensemble::Ranks {
 public:
     MpiRanks() {
         int provided = MPI_THREAD_SINGLE;
@@ -99,7 +99,7 @@ std::string mpi_version() {
     return std::string(whole.substr(0, whole.find_first_of(",\n")));
 }
 
-std::unique_ptr<pipeline::Ranks> join_ranks() {
+std::unique_ptr<ensemble::Ranks> join_ranks() {
     return launched_ranks() > 1 ? std::make_unique<MpiRanks>() : nullptr;
 }
 

@@ -10,7 +10,7 @@
 
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
-#include <thalweg/pipeline/ensemble/draw_ensemble.hpp>
+#include <thalweg/ensemble/draw_ensemble.hpp>
 #include <thalweg/report/page.hpp>
 #include <thalweg/report/read_scene.hpp>
 
@@ -19,7 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr NamedFormat formats[] = {{"png", draw::Format::png}, {"svg", draw::Format::svg}, {"pdf", draw::Format::pdf}};
+constexpr ensemble::NamedFormat formats[] = {
+    {"png", draw::Format::png}, {"svg", draw::Format::svg}, {"pdf", draw::Format::pdf}};
 
 constexpr char const* page_word = "page";
 constexpr char const* page_ending = ".html";
@@ -43,9 +44,9 @@ report::PictureKind kind_of(std::string const& word) {
     unknown("picture", word, known);
 }
 
-NamedFormat format_of(std::string const& word) {
+ensemble::NamedFormat format_of(std::string const& word) {
     std::vector<std::string> known;
-    for (NamedFormat const& format : formats) {
+    for (ensemble::NamedFormat const& format : formats) {
         if (word == format.name) {
             return format;
         }
@@ -66,7 +67,7 @@ struct Order {
     std::string folder;
     std::string single; ///< name of the single picture; "": a folder
     std::vector<report::PictureKind> kinds;
-    std::vector<NamedFormat> formats;
+    std::vector<ensemble::NamedFormat> formats;
     bool page = false;
     bool ensemble = false; ///< of a table, and nothing else
     bool everything() const { return kinds.empty() && !page; }
@@ -94,7 +95,7 @@ Order order_of(DrawParams const& params) {
     }
     for (std::string const& word : params.formats) {
         add_once(order.formats, format_of(word),
-                 [](NamedFormat const& a, NamedFormat const& b) { return a.format == b.format; });
+                 [](ensemble::NamedFormat const& a, ensemble::NamedFormat const& b) { return a.format == b.format; });
     }
     refuse_if<BadParameter>(order.ensemble && (order.page || !order.kinds.empty()),
                             "pipeline.run_draw: an ensemble is drawn by itself: leave out the other kinds");
@@ -116,9 +117,9 @@ Order order_of(DrawParams const& params) {
                                 "pipeline.run_draw: {} is the name of a page: name a folder for pictures", output);
         order.page = true;
     } else if (is_picture) {
-        NamedFormat const own = format_of(ending.substr(1));
+        ensemble::NamedFormat const own = format_of(ending.substr(1));
         bool const other = std::any_of(order.formats.begin(), order.formats.end(),
-                                       [&](NamedFormat const& f) { return f.format != own.format; });
+                                       [&](ensemble::NamedFormat const& f) { return f.format != own.format; });
         refuse_if<BadParameter>(
             order.kinds.size() > 1 || other || order.page,
             "pipeline.run_draw: {} is the name of one picture in one format: name a folder for several", output);
@@ -145,7 +146,7 @@ std::vector<Task> tasks_of(Order const& order, report::Scene const& scene) {
         if (!missing.empty()) {
             throw BadInput(fmt::format("pipeline.run_draw: no {} can be drawn: {}", name_of(kind), missing));
         }
-        for (NamedFormat const& format : order.formats) {
+        for (ensemble::NamedFormat const& format : order.formats) {
             tasks.push_back({kind, format.format,
                              order.single.empty() ? fmt::format("{}.{}", name_of(kind), format.name) : order.single});
         }
@@ -180,16 +181,16 @@ DrawResult draw_members(DrawParams const& params, Order const& order, Run const&
                                 params.look.azimuth_deg || params.look.elevation_deg || params.look.exaggeration,
                             "pipeline.run_draw: an ensemble has no network, no-data value or viewing direction: leave "
                             "out --network, --nodata, --azimuth, --elevation and --exaggeration");
-    DrawnEnsemble drawn = draw_ensemble({.source = params.source,
-                                         .title = params.title,
-                                         .look = params.look,
-                                         .folder = order.folder,
-                                         .single = order.single,
-                                         .existing = params.existing,
-                                         .formats = order.formats,
-                                         .page = order.page,
-                                         .command = command_for_ensemble(params)},
-                                        run);
+    ensemble::DrawnEnsemble drawn = ensemble::draw_ensemble({.source = params.source,
+                                                             .title = params.title,
+                                                             .look = params.look,
+                                                             .folder = order.folder,
+                                                             .single = order.single,
+                                                             .existing = params.existing,
+                                                             .formats = order.formats,
+                                                             .page = order.page,
+                                                             .command = command_for_ensemble(params)},
+                                                            run);
     return {std::move(drawn.files), std::move(drawn.findings)};
 }
 

@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/ensemble/ensemble.hpp>
 #include <thalweg/pipeline/commands/internal/make.hpp>
-#include <thalweg/pipeline/ensemble/ensemble.hpp>
 #include <thalweg/recipe/recipe_files.hpp>
 #include <thalweg/recipe/stages.hpp>
 
@@ -67,12 +67,12 @@ void require_ranges(EnsembleParams const& params) {
 }
 
 /// Throws the reason of the first member's recipe where none of the first ones is possible.
-void require_possible(Ensemble const& ensemble) {
+void require_possible(ensemble::Ensemble const& ensemble) {
     constexpr std::int64_t most_tried = 100;
     std::exception_ptr first;
     for (std::int64_t i = 0; i < std::min(ensemble.members, most_tried); ++i) {
         try {
-            recipe::check_recipe(recipe_of(ensemble, member_of(ensemble, i)));
+            recipe::check_recipe(recipe_of(ensemble, ensemble::member_of(ensemble, i)));
             return;
         } catch (Error const&) {
             first = first ? first : std::current_exception();
@@ -81,12 +81,12 @@ void require_possible(Ensemble const& ensemble) {
     std::rethrow_exception(first);
 }
 
-EnsembleOrder ensemble_asked(EnsembleParams const& params) {
+ensemble::EnsembleOrder ensemble_asked(EnsembleParams const& params) {
     require_ranges(params);
-    EnsembleOrder asked{.vary = params.vary, .folder = params.output, .share = {params.share, params.shares}};
+    ensemble::EnsembleOrder asked{.vary = params.vary, .folder = params.output, .share = {params.share, params.shares}};
     auto make = static_cast<MakeParams const&>(params);
     bool const only_table = take_table(make.set);
-    Ensemble& ensemble = asked.ensemble;
+    ensemble::Ensemble& ensemble = asked.ensemble;
     ensemble.recipe = recipe_asked(make);
     ensemble.recipe.seed = params.first_seed.value_or(ensemble.recipe.seed);
     ensemble.members = params.members;
@@ -94,9 +94,9 @@ EnsembleOrder ensemble_asked(EnsembleParams const& params) {
     refuse_if<BadParameter>(ensemble.recipe.seed > greatest - static_cast<std::uint64_t>(params.members),
                             "the last member's seed would be above {}", greatest);
     for (std::string const& text : params.vary) {
-        VariedKey vary = read_varied_key(text);
+        ensemble::VariedKey vary = ensemble::read_varied_key(text);
         refuse_if<BadParameter>(
-            std::ranges::any_of(ensemble.vary, [&](VariedKey const& v) { return v.key == vary.key; }),
+            std::ranges::any_of(ensemble.vary, [&](ensemble::VariedKey const& v) { return v.key == vary.key; }),
             "--vary {}: the key varies twice", text);
         ensemble.vary.push_back(std::move(vary));
     }
@@ -117,8 +117,8 @@ EnsembleOrder ensemble_asked(EnsembleParams const& params) {
     return asked;
 }
 
-EnsembleResult of_first_rank(EnsembleParams const& params, Ranks* ranks, Run const& run) {
-    EnsembleOrder asked;
+ensemble::EnsembleResult of_first_rank(EnsembleParams const& params, ensemble::Ranks* ranks, Run const& run) {
+    ensemble::EnsembleOrder asked;
     std::optional<recipe::UserFiles> files;
     try {
         asked = ensemble_asked(params);
@@ -129,41 +129,41 @@ EnsembleResult of_first_rank(EnsembleParams const& params, Ranks* ranks, Run con
         }
         throw;
     }
-    return make_members(asked, ranks, run);
+    return ensemble::make_members(asked, ranks, run);
 }
 
-EnsembleResult of_other_rank(Ranks& ranks, EnsembleParams const& params, Run const& run) {
+ensemble::EnsembleResult of_other_rank(ensemble::Ranks& ranks, EnsembleParams const& params, Run const& run) {
     if (!ranks.start(true)) { // the first rank says why
         return {.members = params.members};
     }
-    EnsembleOrder asked;
+    ensemble::EnsembleOrder asked;
     try {
         asked = ensemble_asked(params);
     } catch (...) {
         ranks.say_goodbye(false);
         throw;
     }
-    return help_to_make(asked, ranks, run);
+    return ensemble::help_to_make(asked, ranks, run);
 }
 
 } // namespace
 
-EnsembleResult run_ensemble(EnsembleParams const& params, Run const& run) {
+ensemble::EnsembleResult run_ensemble(EnsembleParams const& params, Run const& run) {
     return of_first_rank(params, nullptr, run);
 }
 
-EnsembleResult run_ensemble_on(Ranks& ranks, EnsembleParams const& params, Run const& run) {
+ensemble::EnsembleResult run_ensemble_on(ensemble::Ranks& ranks, EnsembleParams const& params, Run const& run) {
     Run own = run;
     own.threads = run.threads > 0 ? run.threads : 1;
     return ranks.rank() == 0 ? of_first_rank(params, &ranks, own) : of_other_rank(ranks, params, own);
 }
 
 recipe::Forecast forecast_ensemble(EnsembleParams const& params, Run const& run) {
-    EnsembleOrder asked = ensemble_asked(params);
-    Ensemble& ensemble = asked.ensemble;
+    ensemble::EnsembleOrder asked = ensemble_asked(params);
+    ensemble::Ensemble& ensemble = asked.ensemble;
     recipe::UserFiles const files(ensemble.recipe, run);
-    recipe::Forecast out = recipe::forecast(recipe_of(ensemble, member_of(ensemble, 0)), run);
-    auto const workers = std::min<std::int64_t>(params.members, threads_of(run));
+    recipe::Forecast out = recipe::forecast(recipe_of(ensemble, ensemble::member_of(ensemble, 0)), run);
+    auto const workers = std::min<std::int64_t>(params.members, ensemble::threads_of(run));
     out.memory_bytes *= workers;
     out.seconds *= static_cast<double>(params.members);
     return out;

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/ensemble/make_members.hpp>
+#include <thalweg/ensemble/ranks.hpp>
 #include <thalweg/pipeline/commands/make.hpp>
-#include <thalweg/pipeline/ensemble/make_members.hpp>
-#include <thalweg/pipeline/ensemble/ranks.hpp>
 #include <thalweg/recipe/plan.hpp>
 
 namespace thalweg::pipeline {
@@ -33,14 +33,14 @@ struct EnsembleParams : MakeParams {
 /// when none of the first members has a possible recipe \throws BadInput when the folder holds something else, or
 /// another ensemble \throws IoError when a file cannot be written; members committed before stay \throws Cancelled when
 /// the work must stop; members committed before stay
-EnsembleResult run_ensemble(EnsembleParams const& params, Run const& run = {});
+ensemble::EnsembleResult run_ensemble(EnsembleParams const& params, Run const& run = {});
 
 /// \internal
 /// Does the same together with other processes, which call it too: members are dealt to whoever is free.
 /// \param ranks the processes; outlives the call
 /// \return what became of the ensemble; of other ranks than the first, only what they made
 /// \throws Error as run_ensemble(); IoError on the first rank when another one failed
-EnsembleResult run_ensemble_on(Ranks& ranks, EnsembleParams const& params, Run const& run = {});
+ensemble::EnsembleResult run_ensemble_on(ensemble::Ranks& ranks, EnsembleParams const& params, Run const& run = {});
 
 /// \internal
 /// Runs `thalweg make --ensemble --dry-run`: plans member 0, and writes nothing.

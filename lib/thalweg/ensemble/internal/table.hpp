@@ -8,9 +8,9 @@
 #include <vector>
 
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/pipeline/ensemble/ensemble.hpp>
+#include <thalweg/ensemble/ensemble.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::ensemble {
 
 /// A hash of bytes (FNV-1a, 64 bits).
 std::uint64_t hash_of(std::string_view text);
@@ -79,4 +79,4 @@ private:
     std::int64_t damaged_ = 0;
 };
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::ensemble

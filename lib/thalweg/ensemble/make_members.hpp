@@ -8,10 +8,10 @@
 
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/pipeline/ensemble/ensemble.hpp>
-#include <thalweg/pipeline/ensemble/ranks.hpp>
+#include <thalweg/ensemble/ensemble.hpp>
+#include <thalweg/ensemble/ranks.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::ensemble {
 
 /// What an ensemble leaves of each member, beside its row of the table.
 struct MemberFiles {
@@ -66,4 +66,4 @@ EnsembleResult make_members(EnsembleOrder const& order, Ranks* ranks, Run const&
 /// \pre start() of the ranks has been called
 EnsembleResult help_to_make(EnsembleOrder const& order, Ranks& ranks, Run const& run);
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::ensemble

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/ensemble/draw_ensemble.hpp>
+#include <thalweg/ensemble/draw_ensemble.hpp>
 
 #include <algorithm>
 #include <array>
@@ -18,14 +18,14 @@
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/draw/contact_sheet.hpp>
+#include <thalweg/ensemble/internal/ensemble_page.hpp>
 #include <thalweg/io/raster/dem_derivatives.hpp>
 #include <thalweg/io/raster/read_drawable.hpp>
 #include <thalweg/make/laws.hpp>
 #include <thalweg/make/relief.hpp>
-#include <thalweg/pipeline/ensemble/internal/ensemble_page.hpp>
 #include <thalweg/recipe/recipe.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::ensemble {
 namespace {
 
 namespace fs = std::filesystem;
@@ -452,4 +452,4 @@ DrawnEnsemble draw_ensemble(DrawEnsembleParams const& params, Run const& run) {
     return drawn;
 }
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::ensemble

@@ -8,9 +8,9 @@
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/draw/distributions.hpp>
-#include <thalweg/pipeline/ensemble/internal/ensemble_table.hpp>
+#include <thalweg/ensemble/internal/ensemble_table.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::ensemble {
 
 /// A key that varies, by member.
 struct DrawnKey {
@@ -46,4 +46,4 @@ std::string words_of_key(MembersTable const& table, std::size_t key);
 /// The unit of a key of recipes; "": it has none.
 std::string unit_of_key(std::string const& key);
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::ensemble

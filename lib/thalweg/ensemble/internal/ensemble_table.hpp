@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace thalweg::pipeline {
+namespace thalweg::ensemble {
 
 enum class DrawnStatus : std::uint8_t { ok, check_failed, failed };
 
@@ -50,4 +50,4 @@ MembersTable read_members_table(std::string const& path);
 /// The number that a text is, plain or with an exponent; NaN: it is not a finite number.
 double plain_number(std::string_view text);
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::ensemble

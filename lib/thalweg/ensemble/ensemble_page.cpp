@@ -9,11 +9,11 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/numbers/ranks.hpp>
+#include <thalweg/ensemble/internal/ensemble_page.hpp>
 #include <thalweg/io/gdal/packed.hpp>
-#include <thalweg/pipeline/ensemble/internal/ensemble_page.hpp>
 #include <thalweg/report/page.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::ensemble {
 namespace {
 
 // The policy names the hash of this text, which a test computes again.
@@ -303,4 +303,4 @@ std::string ensemble_page(EnsembleView const& view, EnsembleSheet const& sheet, 
                               report::html_text(command));
 }
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::ensemble

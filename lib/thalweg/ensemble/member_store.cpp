@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/ensemble/internal/member_store.hpp>
+#include <thalweg/ensemble/internal/member_store.hpp>
 
 #include <algorithm>
 #include <array>
@@ -33,7 +33,7 @@
 #include <thalweg/recipe/stages.hpp>
 #include <thalweg/report/report.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::ensemble {
 
 namespace {
 
@@ -42,7 +42,7 @@ namespace fs = std::filesystem;
 constexpr std::int64_t largest_input = std::int64_t{1} << 40;
 
 [[noreturn]] void fail_at(std::string const& path, int reason) {
-    throw IoError(fmt::format("pipeline.member_store: {}: {}", path, std::generic_category().message(reason)));
+    throw IoError(fmt::format("ensemble.member_store: {}: {}", path, std::generic_category().message(reason)));
 }
 
 void require_at(std::string const& path, std::error_code error) {
@@ -159,18 +159,18 @@ MemberStore::MemberStore(std::string const& folder, Ensemble ensemble, std::vect
                          MemberFiles const& files, Role role, Share const& share, Run const& run)
     : folder_(folder), inner_((fs::path(folder) / ".ensemble").string()), ensemble_(std::move(ensemble)), files_(files),
       role_(role) {
-    refuse_if<BadParameter>(folder.empty(), "pipeline.member_store: the name of the folder is empty");
+    refuse_if<BadParameter>(folder.empty(), "ensemble.member_store: the name of the folder is empty");
     std::error_code error;
     refuse_if<BadInput>(fs::exists(folder, error) && !fs::is_directory(folder, error),
-                        "pipeline.member_store: {} is not a folder", folder);
+                        "ensemble.member_store: {} is not a folder", folder);
     refuse_if<BadInput>(fs::is_symlink(fs::symlink_status(inner_, error)),
-                        "pipeline.member_store: {} is a link: put the folder in its place, or name another folder",
+                        "ensemble.member_store: {} is a link: put the folder in its place, or name another folder",
                         inner_);
     // In this order: another first run may begin between the two, and its folder is the first thing in there.
     bool const has_content = fs::exists(folder, error) && !fs::is_empty(folder, error);
     bool const is_known = fs::is_directory(inner_, error) || fs::exists(fs::path(folder) / "ensemble.json", error);
     refuse_if<BadInput>(has_content && !is_known,
-                        "pipeline.member_store: {} already exists and holds no ensemble: name another folder", folder);
+                        "ensemble.member_store: {} already exists and holds no ensemble: name another folder", folder);
     if (role == Role::helper) {
         fs::create_directories(inner_, error);
         require_at(inner_, error);
@@ -212,7 +212,7 @@ int MemberStore::locked_at(std::string const& path, bool waits, Run const& run) 
         require_at(inner_, error);
         OpenFile file(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0644));
         if (file.get() < 0) {
-            refuse_if<BadInput>(errno == ELOOP, "pipeline.member_store: {} is a link: remove it", path);
+            refuse_if<BadInput>(errno == ELOOP, "ensemble.member_store: {} is a link: remove it", path);
             if (errno == ENOENT) {
                 continue;
             }
@@ -220,7 +220,7 @@ int MemberStore::locked_at(std::string const& path, bool waits, Run const& run) 
         }
         struct stat found {};
         refuse_if<BadInput>(fstat(file.get(), &found) == 0 && !S_ISREG(found.st_mode),
-                            "pipeline.member_store: {} is a pipe or a device: remove it", path);
+                            "ensemble.member_store: {} is a pipe or a device: remove it", path);
         Locked const state = lock_now(file.get());
         if (state == Locked::no) {
             if (!waits) {
@@ -248,7 +248,7 @@ void MemberStore::open_folder(std::vector<std::string> const& vary, Share const&
     if (role_ == Role::alone) {
         keep(locked_at(inner_ + "/run.lock", false, run));
         refuse_if<BadInput>(locks_.empty(),
-                            "pipeline.member_store: another thalweg works in {}: wait for it, stop it, or name another "
+                            "ensemble.member_store: another thalweg works in {}: wait for it, stop it, or name another "
                             "folder",
                             folder_);
     }
@@ -296,7 +296,7 @@ void MemberStore::start(std::vector<std::string> const& vary, Run const& run) {
             std::string const here = io::read_text(out.path(name), largest_input);
             bool const is_text = !name.starts_with("inputs/");
             refuse_if<BadInput>(
-                there != here, "pipeline.member_store: {} holds another ensemble: {} differs{}. Name another folder",
+                there != here, "ensemble.member_store: {} holds another ensemble: {} differs{}. Name another folder",
                 folder_, name, is_text ? fmt::format(" (there: {})", first_difference(there, here)) : "");
         }
         run.tell("ensemble", fmt::format("goes on in {}", folder_));
@@ -447,7 +447,7 @@ void MemberStore::append(std::string line) {
     std::scoped_lock const hold(guard_);
     // A line that was cut off must stay the last one.
     if (is_broken_) {
-        throw IoError(fmt::format("pipeline.member_store: a row of the table could not be written in {}", inner_));
+        throw IoError(fmt::format("ensemble.member_store: a row of the table could not be written in {}", inner_));
     }
     ssize_t const written = write(journal_, line.data(), line.size());
     if (written != static_cast<ssize_t>(line.size())) {
@@ -575,7 +575,7 @@ void MemberStore::write_shard(std::string const& path, std::vector<io::TarEntry>
             std::string bytes(static_cast<std::size_t>(entry->end - entry->begin), '\0');
             old.seekg(entry->begin);
             refuse_if<IoError>(!old.read(bytes.data(), static_cast<std::streamsize>(bytes.size())),
-                               "pipeline.member_store: {} cannot be read", path);
+                               "ensemble.member_store: {} cannot be read", path);
             add(bytes);
         }
     };
@@ -611,4 +611,4 @@ Journals::Account MemberStore::finish(Run const& run) {
     return account;
 }
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::ensemble

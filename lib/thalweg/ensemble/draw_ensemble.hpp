@@ -11,7 +11,7 @@
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/report/pictures.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::ensemble {
 
 /// A format of pictures and its name, which is also the extension.
 struct NamedFormat {
@@ -44,4 +44,4 @@ struct DrawnEnsemble {
 /// \throws BadInput as read_members_table, and the readers of the DEMs in the table's folder
 DrawnEnsemble draw_ensemble(DrawEnsembleParams const& params, Run const& run);
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::ensemble

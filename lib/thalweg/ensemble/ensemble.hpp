@@ -14,7 +14,7 @@
 #include <thalweg/recipe/plan.hpp>
 #include <thalweg/recipe/recipe.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::ensemble {
 
 /// A key of the recipe that differs between the members of an ensemble: uniformly distributed, or one of several
 /// values in turn.
@@ -96,4 +96,4 @@ struct MadeMember {
 /// \throws Cancelled when the work must stop
 MadeMember make_member(Ensemble const& ensemble, std::int64_t number, Run const& run = {});
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::ensemble

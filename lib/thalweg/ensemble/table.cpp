@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/ensemble/internal/table.hpp>
+#include <thalweg/ensemble/internal/table.hpp>
 
 #include <algorithm>
 #include <cerrno>
@@ -21,7 +21,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/refuse.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::ensemble {
 
 namespace {
 
@@ -182,7 +182,7 @@ public:
         std::getline(stream, line);
         std::optional<ordered_json> row = row_in(line);
         if (!row) {
-            throw IoError(fmt::format("pipeline.journals: the row of member {} was changed while it was read: run the "
+            throw IoError(fmt::format("ensemble.journals: the row of member {} was changed while it was read: run the "
                                       "command again",
                                       place.member));
         }
@@ -275,14 +275,14 @@ Journals::Journals(std::string const& folder, Run const& run) {
         std::string const name = entry.path().filename().string();
         if (name.starts_with("rows-") && name.ends_with(".jsonl")) {
             refuse_if<BadInput>(!fs::is_regular_file(entry.symlink_status()),
-                                "pipeline.journals: {} is not a file of thalweg's but a link, a folder, a pipe or a "
+                                "ensemble.journals: {} is not a file of thalweg's but a link, a folder, a pipe or a "
                                 "device: remove it",
                                 entry.path().string());
             journals_.push_back(entry.path().string());
         }
     }
     if (error) {
-        throw IoError(fmt::format("pipeline.journals: {}: {}", folder, error.message()));
+        throw IoError(fmt::format("ensemble.journals: {}: {}", folder, error.message()));
     }
     std::ranges::sort(journals_);
     Lists lists(lists_);
@@ -290,7 +290,7 @@ Journals::Journals(std::string const& folder, Run const& run) {
         std::ifstream stream(journals_[i], std::ios::binary);
         if (!stream) {
             throw IoError(
-                fmt::format("pipeline.journals: {}: {}", journals_[i], std::generic_category().message(errno)));
+                fmt::format("ensemble.journals: {}: {}", journals_[i], std::generic_category().message(errno)));
         }
         std::int64_t offset = 0;
         for (std::string line; std::getline(stream, line) && !stream.eof(); offset = stream.tellg()) {
@@ -307,7 +307,7 @@ Journals::Journals(std::string const& folder, Run const& run) {
                              .is_failed = (*row)["status"] == name_of(MemberState::failed)});
         }
         if (stream.bad()) { // else it would be a journal that ends there
-            throw IoError(fmt::format("pipeline.journals: {} cannot be read to its end", journals_[i]));
+            throw IoError(fmt::format("ensemble.journals: {} cannot be read to its end", journals_[i]));
         }
     }
     keep_one_each(rows_);
@@ -394,4 +394,4 @@ Journals::Account Journals::write_tables(std::int64_t members, std::string const
     return account;
 }
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::ensemble

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/ensemble/ensemble.hpp>
+#include <thalweg/ensemble/ensemble.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +16,7 @@ namespace ensemble_test {
 using namespace thalweg;
 using namespace thalweg::recipe;
 using namespace thalweg::make;
+using namespace thalweg::ensemble;
 using namespace thalweg::pipeline;
 
 namespace {

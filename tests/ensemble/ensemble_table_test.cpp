@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/ensemble/internal/ensemble_table.hpp>
+#include <thalweg/ensemble/internal/ensemble_table.hpp>
 
 #include <cmath>
 #include <string>
@@ -15,8 +15,8 @@
 namespace ensemble_table_test {
 
 using namespace thalweg;
-using pipeline::csv_records;
-using pipeline::MembersTable;
+using ensemble::csv_records;
+using ensemble::MembersTable;
 using Records = std::vector<std::vector<std::string>>;
 
 namespace {
@@ -25,7 +25,7 @@ MembersTable read(std::string const& text) {
     ScratchFolder const folder;
     std::string const path = folder / "table.csv";
     io::write_text(path, text);
-    return pipeline::read_members_table(path);
+    return ensemble::read_members_table(path);
 }
 
 std::string quoted(std::string const& text) {
@@ -78,7 +78,7 @@ TEST(EnsembleTable, ColumnsHaveTheirPlaces) {
     EXPECT_EQ(table.members[1].number, 2);
     EXPECT_EQ(table.members[1].seed, "18446744073709551615");
     EXPECT_EQ(table.members[1].reason, "a, b");
-    EXPECT_EQ(table.members[2].status, pipeline::DrawnStatus::check_failed);
+    EXPECT_EQ(table.members[2].status, ensemble::DrawnStatus::check_failed);
     ASSERT_EQ(table.measures.size(), 2U);
     EXPECT_EQ(table.measures[0].name, "law.hack");
     EXPECT_DOUBLE_EQ(table.measures[0].values[2], -0.001);
@@ -93,7 +93,7 @@ TEST(EnsembleTable, BadTablesAreRefused) {
           "member,status,law.hack\n0,fine,1\n", "\x89PNG\r\n\x1a\n"}) {
         EXPECT_THROW(read(bad), BadInput) << bad;
     }
-    EXPECT_THROW(pipeline::read_members_table("nowhere.csv"), BadInput);
+    EXPECT_THROW(ensemble::read_members_table("nowhere.csv"), BadInput);
 }
 
 } // namespace ensemble_table_test

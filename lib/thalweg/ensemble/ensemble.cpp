@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/ensemble/ensemble.hpp>
+#include <thalweg/ensemble/ensemble.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -16,10 +16,10 @@
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/refuse.hpp>
-#include <thalweg/pipeline/ensemble/internal/table.hpp>
+#include <thalweg/ensemble/internal/table.hpp>
 #include <thalweg/recipe/recipe_keys.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::ensemble {
 
 namespace {
 
@@ -251,4 +251,4 @@ MadeMember make_member(Ensemble const& ensemble, std::int64_t number, Run const&
     }
 }
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::ensemble

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/ensemble/internal/ensemble_table.hpp>
+#include <thalweg/ensemble/internal/ensemble_table.hpp>
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/files/files.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::ensemble {
 namespace {
 
 constexpr std::int64_t largest_table = 250'000'000; // [bytes]
@@ -34,7 +34,7 @@ CsvField plain_field(std::string_view text, std::size_t at, std::string const& n
     while (!ends_field(text, end)) {
         refuse_if<BadInput>(
             text[end] == '"' || text[end] == '\r',
-            "pipeline.read_members_table: {}, line {}: {} inside a field without quotes; it is not a CSV "
+            "ensemble.read_members_table: {}, line {}: {} inside a field without quotes; it is not a CSV "
             "table by RFC 4180",
             name, line, text[end] == '"' ? "a quote" : "a carriage return");
         ++end;
@@ -52,7 +52,7 @@ CsvField quoted_field(std::string_view text, std::size_t at, std::string const& 
             ++i;
         } else {
             refuse_if<BadInput>(!ends_field(text, i + 1),
-                                "pipeline.read_members_table: {}, line {}: text follows the closing quote of a field; "
+                                "ensemble.read_members_table: {}, line {}: text follows the closing quote of a field; "
                                 "it is not a CSV table by RFC 4180",
                                 name, line);
             field.end = i + 1;
@@ -60,7 +60,7 @@ CsvField quoted_field(std::string_view text, std::size_t at, std::string const& 
         }
     }
     refuse_if<BadInput>(true,
-                        "pipeline.read_members_table: {}, line {}: a quoted field has no end; the file is "
+                        "ensemble.read_members_table: {}, line {}: a quoted field has no end; the file is "
                         "incomplete or not a CSV table",
                         name, line);
     return field;
@@ -72,7 +72,7 @@ std::vector<std::vector<std::string>> csv_records(std::string_view text, std::st
     constexpr std::string_view mark = "\xEF\xBB\xBF";
     text.remove_prefix(text.starts_with(mark) ? mark.size() : 0);
     refuse_if<BadInput>(text.find('\0') != std::string_view::npos || !is_utf8(text),
-                        "pipeline.read_members_table: {} is not a text in UTF-8; name the table.csv of an ensemble",
+                        "ensemble.read_members_table: {} is not a text in UTF-8; name the table.csv of an ensemble",
                         name);
     std::vector<std::vector<std::string>> records;
     std::size_t line = 1;
@@ -94,7 +94,7 @@ std::vector<std::vector<std::string>> csv_records(std::string_view text, std::st
         ++line;
         if (!records.empty()) {
             refuse_if<BadInput>(record.size() != records.front().size(),
-                                "pipeline.read_members_table: {}, line {} has {} fields and the header {}; correct the "
+                                "ensemble.read_members_table: {}, line {} has {} fields and the header {}; correct the "
                                 "line",
                                 name, first_line, record.size(), records.front().size());
         }
@@ -133,7 +133,7 @@ Columns columns_of(std::vector<std::string> const& header, std::string const& na
     std::set<std::string> seen;
     for (std::size_t i = 0; i < header.size(); ++i) {
         refuse_if<BadInput>(!seen.insert(header[i]).second,
-                            "pipeline.read_members_table: {} has two columns '{}'; rename or remove one", name,
+                            "ensemble.read_members_table: {} has two columns '{}'; rename or remove one", name,
                             header[i]);
         if (header[i] == "member") {
             member = i;
@@ -150,7 +150,7 @@ Columns columns_of(std::vector<std::string> const& header, std::string const& na
         }
     }
     refuse_if<BadInput>(!member,
-                        "pipeline.read_members_table: {} has no column 'member'; name the table.csv that make "
+                        "ensemble.read_members_table: {} has no column 'member'; name the table.csv that make "
                         "--ensemble wrote",
                         name);
     columns.member = *member;
@@ -159,7 +159,7 @@ Columns columns_of(std::vector<std::string> const& header, std::string const& na
 
 DrawnStatus status_of(std::string const& word, std::string const& name, std::int64_t member) {
     refuse_if<BadInput>(word != "ok" && word != "check_failed" && word != "failed",
-                        "pipeline.read_members_table: {}, member {}: unknown status '{}'; it must be ok, check_failed "
+                        "ensemble.read_members_table: {}, member {}: unknown status '{}'; it must be ok, check_failed "
                         "or failed",
                         name, member, word);
     return word == "ok" ? DrawnStatus::ok : word == "failed" ? DrawnStatus::failed : DrawnStatus::check_failed;
@@ -169,7 +169,7 @@ std::int64_t member_number(std::string const& text, std::string const& name, std
     std::int64_t number = 0;
     auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     refuse_if<BadInput>(error != std::errc() || end != text.data() + text.size() || number < 0,
-                        "pipeline.read_members_table: {}, row {}: member '{}' is not a whole number from 0", name, row,
+                        "ensemble.read_members_table: {}, row {}: member '{}' is not a whole number from 0", name, row,
                         text);
     return number;
 }
@@ -178,11 +178,11 @@ std::int64_t member_number(std::string const& text, std::string const& name, std
 
 MembersTable read_members_table(std::string const& path) {
     auto records = csv_records(io::read_text(path, largest_table), path);
-    refuse_if<BadInput>(records.empty(), "pipeline.read_members_table: {} is empty; name the table.csv of an ensemble",
+    refuse_if<BadInput>(records.empty(), "ensemble.read_members_table: {} is empty; name the table.csv of an ensemble",
                         path);
     std::vector<std::string> const header = std::move(records.front());
     Columns const columns = columns_of(header, path);
-    refuse_if<BadInput>(records.size() < 2, "pipeline.read_members_table: {} has a header and no members", path);
+    refuse_if<BadInput>(records.size() < 2, "ensemble.read_members_table: {} has a header and no members", path);
     MembersTable table;
     for (std::size_t const i : columns.keys) {
         table.keys.push_back(header[i]);
@@ -198,7 +198,7 @@ MembersTable read_members_table(std::string const& path) {
         DrawnMember member;
         member.number = member_number(record[columns.member], path, row);
         refuse_if<BadInput>(!numbers.insert(member.number).second,
-                            "pipeline.read_members_table: {} has member {} twice; remove one row", path, member.number);
+                            "ensemble.read_members_table: {} has member {} twice; remove one row", path, member.number);
         member.seed = columns.seed ? record[*columns.seed] : "";
         member.status = columns.status ? status_of(record[*columns.status], path, member.number) : DrawnStatus::ok;
         member.reason = columns.reason ? record[*columns.reason] : "";
@@ -209,7 +209,7 @@ MembersTable read_members_table(std::string const& path) {
             std::string const& text = record[columns.measures[m]];
             double const value = plain_number(text);
             refuse_if<BadInput>(std::isnan(value) && !text.empty(),
-                                "pipeline.read_members_table: {}, member {}, column '{}': '{}' is not a number; leave "
+                                "ensemble.read_members_table: {}, member {}, column '{}': '{}' is not a number; leave "
                                 "unknown values empty",
                                 path, member.number, header[columns.measures[m]], text);
             table.measures[m].values.push_back(value);
@@ -219,10 +219,10 @@ MembersTable read_members_table(std::string const& path) {
     }
     refuse_if<BadInput>(
         !has_number,
-        "pipeline.read_members_table: {} has no numbers in columns rivers.*, dem.*, law.*, dem_law.* or "
+        "ensemble.read_members_table: {} has no numbers in columns rivers.*, dem.*, law.*, dem_law.* or "
         "relief.*; there is nothing to draw",
         path);
     return table;
 }
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::ensemble

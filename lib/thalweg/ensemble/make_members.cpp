@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/ensemble/make_members.hpp>
+#include <thalweg/ensemble/make_members.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -16,10 +16,10 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/refuse.hpp>
-#include <thalweg/pipeline/ensemble/internal/member_store.hpp>
+#include <thalweg/ensemble/internal/member_store.hpp>
 #include <thalweg/recipe/stages.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::ensemble {
 
 namespace {
 
@@ -254,4 +254,4 @@ EnsembleResult help_to_make(EnsembleOrder const& order, Ranks& ranks, Run const&
     return result;
 }
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::ensemble

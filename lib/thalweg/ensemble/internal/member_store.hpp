@@ -13,13 +13,13 @@
 #include <vector>
 
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/ensemble/ensemble.hpp>
+#include <thalweg/ensemble/internal/table.hpp>
+#include <thalweg/ensemble/make_members.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/files/tar.hpp>
-#include <thalweg/pipeline/ensemble/ensemble.hpp>
-#include <thalweg/pipeline/ensemble/internal/table.hpp>
-#include <thalweg/pipeline/ensemble/make_members.hpp>
 
-namespace thalweg::pipeline {
+namespace thalweg::ensemble {
 
 /// \return "member_00012"
 std::string member_folder(std::int64_t number);
@@ -133,4 +133,4 @@ private:
     std::int64_t next_work_ = 0;
 };
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::ensemble

@@ -6,7 +6,7 @@
 #include <functional>
 #include <optional>
 
-namespace thalweg::pipeline {
+namespace thalweg::ensemble {
 
 /// Processes (ranks) that make the members of an ensemble together, as those that mpirun starts. The first one hands
 /// out the numbers of members.
@@ -37,4 +37,4 @@ public:
     virtual void say_goodbye(bool is_fine) = 0;
 };
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::ensemble
