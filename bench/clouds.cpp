@@ -12,10 +12,10 @@
 #include <fmt/format.h>
 #include <laszip/laszip_api.h>
 
+#include <thalweg/commands/tin.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/mesh/points.hpp>
-#include <thalweg/pipeline/commands/tin.hpp>
 
 namespace {
 
@@ -89,11 +89,11 @@ double seconds_of(auto&& act) {
 
 double tin_of(std::string const& path, std::string const& output, std::int64_t& vertices) {
     return seconds_of([&] {
-        pipeline::TinParams params;
+        commands::TinParams params;
         params.path = path;
         params.output = output;
         params.crs = "EPSG:32631";
-        vertices = static_cast<std::int64_t>(pipeline::run_tin(params).tin.vertices.size());
+        vertices = static_cast<std::int64_t>(commands::run_tin(params).tin.vertices.size());
     });
 }
 

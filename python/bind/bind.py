@@ -33,7 +33,7 @@ MODULES = [
     "report",
     "exports",
     "ensemble",
-    "pipeline",
+    "commands",
 ]
 
 # The folder of a namespace, and how Python calls it, where these differ: make and ensemble are functions there.

@@ -332,8 +332,7 @@ namespace {
 
 /// Whether a function belongs to a module of the program, which says units itself.
 bool is_of_program(std::string_view function) {
-    constexpr std::string_view modules[] = {"recipe.",  "terrain.",  "report.",  "export.",
-                                            "members.", "commands.", "pipeline."};
+    constexpr std::string_view modules[] = {"recipe.", "terrain.", "report.", "export.", "members.", "commands."};
     return std::ranges::any_of(modules, [&](std::string_view module) { return function.starts_with(module); });
 }
 

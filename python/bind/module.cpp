@@ -27,7 +27,7 @@ THALWEG_OF_MODULE(make)
 THALWEG_OF_MODULE(report)
 THALWEG_OF_MODULE(exports)
 THALWEG_OF_MODULE(ensemble)
-THALWEG_OF_MODULE(pipeline)
+THALWEG_OF_MODULE(commands)
 #undef THALWEG_OF_MODULE
 
 namespace {
@@ -60,7 +60,7 @@ constexpr std::array<Module, 17> modules = {{
     {"report", "The folder of a terrain: files, report and pictures.", declare_report, define_report},
     {"export", "Files for game engines, 3D programs, printers and the web.", declare_exports, define_exports},
     {"members", "Many terrains by one recipe.", declare_ensemble, define_ensemble},
-    {"pipeline", "Whole terrains, and the commands of the program.", declare_pipeline, define_pipeline},
+    {"commands", "The commands of the program.", declare_commands, define_commands},
 }};
 
 } // namespace

@@ -17,7 +17,6 @@ using namespace thalweg;
 using namespace thalweg::recipe;
 using namespace thalweg::make;
 using namespace thalweg::ensemble;
-using namespace thalweg::pipeline;
 
 namespace {
 

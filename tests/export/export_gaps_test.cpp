@@ -16,7 +16,6 @@ namespace export_gaps_test {
 using namespace thalweg;
 using namespace thalweg::report;
 using namespace thalweg::exports;
-using namespace thalweg::pipeline;
 
 namespace {
 

@@ -21,7 +21,6 @@ namespace print_export_test {
 using namespace thalweg;
 using namespace thalweg::report;
 using namespace thalweg::exports;
-using namespace thalweg::pipeline;
 
 namespace {
 

@@ -20,7 +20,6 @@ namespace web_export_test {
 using namespace thalweg;
 using namespace thalweg::report;
 using namespace thalweg::exports;
-using namespace thalweg::pipeline;
 
 namespace {
 

@@ -28,7 +28,7 @@ REFERRING = {
     "recipe/recipe_keys.hpp": "a row of a table of literals",
     "recipe/recipe_files.hpp": "a row of a table of literals",
     "ensemble/draw_ensemble.hpp": "names are literals",
-    "pipeline/commands/convert.hpp": "names are literals",
+    "commands/convert.hpp": "names are literals",
     "export/export.hpp": "names are literals",
 }
 # A member: indented by one level, without parentheses, of a type that owns nothing.

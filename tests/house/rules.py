@@ -12,15 +12,12 @@ import sys
 # those before them.
 BELOW = ["core", "geometry", "solver", "flow"]
 STAGES = ["network", "skeleton", "surface", "fractal", "blend", "measure", "draw", "io"]
-PROGRAM = ["recipe", "make", "report", "export", "ensemble", "pipeline"]
+PROGRAM = ["recipe", "make", "report", "export", "ensemble", "commands"]
 MODULES = {"core": [], "geometry": ["core"], "solver": ["core"], "flow": ["core"],
            "studio": BELOW + STAGES + PROGRAM + ["serve"]}
 MODULES.update({name: BELOW + STAGES + PROGRAM[:number] for number, name in enumerate(PROGRAM)})
 MODULES.update({stage: BELOW for stage in STAGES})
 MODULES["serve"] = ["core"]
-
-# The families of pipeline, in their order: each may include those before it.
-FAMILIES = ["commands"]
 
 # Which foreign headers (by how their names begin) a module's .cpp files may include.
 FOREIGN = {
@@ -37,7 +34,7 @@ FOREIGN = {
     "report": ["toml++/", "nlohmann/"],
     "export": ["nlohmann/"],
     "ensemble": ["nlohmann/"],
-    "pipeline": ["nlohmann/"],
+    "commands": ["nlohmann/"],
     "studio": ["nlohmann/"],
     "tools": ["CLI/", "nlohmann/", "spdlog/", "mpi.h"],
 }
@@ -131,12 +128,6 @@ def check_own_include(name, header):
     return None
 
 
-def includes_upwards(name, header):
-    """Whether a file of pipeline includes a family that comes after its own."""
-    of, other = (path.split("/")[-2 if "/internal/" not in path else -3] for path in (name, header))
-    return other in FAMILIES and of in FAMILIES and FAMILIES.index(other) > FAMILIES.index(of)
-
-
 def check_include(name, module, quoted, header):
     """What is wrong with one include of a file in lib or tools, or None."""
     if quoted:
@@ -147,8 +138,6 @@ def check_include(name, module, quoted, header):
         target = header.split("/")[1]
         if "/internal/" in header and (module != target or (name.endswith(".hpp") and "/internal/" not in name)):
             return f"<{header}> is for the .cpp files of {target} alone"
-        if module == target == "pipeline" and len(pathlib.PurePath(name).parts) > 3 and includes_upwards(name, header):
-            return f"<{header}> lies above this file: the order is {', '.join(FAMILIES)}"
         if module == "tools" or target == module or target in MODULES[module]:
             return None
         what = "stage modules meet in the program's" if target in STAGES and module in STAGES else "dependencies point one way"

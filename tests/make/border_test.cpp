@@ -18,7 +18,6 @@ namespace border_test {
 
 using namespace thalweg;
 using namespace thalweg::make;
-using namespace thalweg::pipeline;
 
 namespace {
 

@@ -24,7 +24,6 @@ namespace land_test {
 using namespace thalweg;
 using namespace thalweg::recipe;
 using namespace thalweg::make;
-using namespace thalweg::pipeline;
 
 namespace {
 

@@ -20,7 +20,6 @@ namespace laws_test {
 using namespace thalweg;
 using namespace thalweg::recipe;
 using namespace thalweg::make;
-using namespace thalweg::pipeline;
 
 namespace {
 

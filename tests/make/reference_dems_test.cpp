@@ -23,7 +23,6 @@ namespace reference_dems_test {
 using namespace thalweg;
 using measure::Relief;
 using namespace thalweg::make;
-using namespace thalweg::pipeline;
 
 namespace {
 

@@ -21,6 +21,7 @@
 #include <network/rivers.hpp>
 #include <support.hpp>
 
+#include <thalweg/commands/check.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/extract_streams.hpp>
@@ -28,7 +29,6 @@
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/make/make.hpp>
-#include <thalweg/pipeline/commands/check.hpp>
 
 // The share of rivers of known direction that is oriented wrong without their fields and directions:
 // docs/algorithms/river_directions.md.
@@ -398,10 +398,10 @@ TEST(RiverDirections, AFileDrawnFromTheMouthIsTurned) {
 TEST(RiverDirections, OfAFileDrawnFromTheMouthAMendedCopyIsTurned) {
     ScratchFolder const folder;
     folder.write("rivers.geojson", test::geojson(from_the_mouth()));
-    pipeline::CheckParams params;
+    commands::CheckParams params;
     params.network = folder / "rivers.geojson";
     params.fix = folder / "mended.gpkg";
-    pipeline::CheckResult const checked = pipeline::run_check(params);
+    commands::CheckResult const checked = commands::run_check(params);
     EXPECT_EQ(checked.written.size(), 1U);
     EXPECT_EQ(test::count(checked.mended, "reversed"), 7);
     EXPECT_EQ(test::count(checked.notes, "directions"), 1);
@@ -429,13 +429,13 @@ TEST(RiverDirections, WhatIsUncertainADemDecides) {
     std::ranges::sort(outlets, before);
     EXPECT_EQ(outlets, (std::vector<Vec2>{{496000, 5003000}, {500000, 5000000}}));
 
-    pipeline::CheckParams params;
+    commands::CheckParams params;
     params.network = folder / "rivers.geojson";
     params.fix = folder / "mended.gpkg";
-    EXPECT_EQ(test::count(pipeline::run_check(params).notes, "doubtful_directions"), 1);
+    EXPECT_EQ(test::count(commands::run_check(params).notes, "doubtful_directions"), 1);
     params.dem = folder / "dem.asc";
     params.existing = io::Existing::replace;
-    pipeline::CheckResult const checked = pipeline::run_check(params);
+    commands::CheckResult const checked = commands::run_check(params);
     EXPECT_EQ(test::count(checked.notes, "doubtful_directions"), 0);
     EXPECT_TRUE(
         std::ranges::any_of(checked.mended, [](Finding const& f) { return f.kind == "reversed" && f.feature == 8; }));

@@ -21,7 +21,6 @@ namespace rivers_of_forest_test {
 
 using namespace thalweg;
 using namespace thalweg::make;
-using namespace thalweg::pipeline;
 
 namespace {
 

@@ -16,7 +16,6 @@ namespace scarps_test {
 using namespace thalweg;
 using namespace thalweg::recipe;
 using namespace thalweg::make;
-using namespace thalweg::pipeline;
 
 namespace {
 

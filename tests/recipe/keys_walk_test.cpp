@@ -27,7 +27,6 @@ using namespace thalweg;
 using namespace thalweg::recipe;
 using namespace thalweg::make;
 using namespace thalweg::report;
-using namespace thalweg::pipeline;
 
 namespace {
 

@@ -22,7 +22,6 @@ namespace plan_test {
 using namespace thalweg;
 using namespace thalweg::recipe;
 using namespace thalweg::make;
-using namespace thalweg::pipeline;
 
 namespace {
 

@@ -18,7 +18,6 @@ namespace recipe_test {
 
 using namespace thalweg;
 using namespace thalweg::recipe;
-using namespace thalweg::pipeline;
 
 namespace {
 

@@ -19,7 +19,6 @@ namespace recipes_0_1_0_test {
 using namespace thalweg;
 using namespace thalweg::recipe;
 using namespace thalweg::make;
-using namespace thalweg::pipeline;
 
 namespace {
 

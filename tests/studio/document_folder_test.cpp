@@ -17,8 +17,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <thalweg/commands/make.hpp>
 #include <thalweg/io/files/files.hpp>
-#include <thalweg/pipeline/commands/make.hpp>
 #include <thalweg/report/report.hpp>
 #include <thalweg/studio/internal/journal.hpp>
 
@@ -146,7 +146,7 @@ TEST_F(DocumentFolders, BeginWithNothingARecipeRiversOrAFolderOfMake) {
     std::string const name = rivers.document().recipe.network->lines.path;
     EXPECT_TRUE(name.starts_with("inputs/"));
     EXPECT_EQ(bytes_of(at("rivers/" + name)), bytes_of(at("rivers.geojson")));
-    pipeline::run_make({at("land.toml"), at("made")});
+    commands::run_make({at("land.toml"), at("made")});
     new_document(at("again"), at("made"));
     EXPECT_EQ(DocumentFolder(at("again")).document().recipe.skeleton->scatter, 9);
     EXPECT_TRUE(has(error_of([&] { new_document(at("made"), at("land.toml")); }), "BadInput"));
@@ -204,7 +204,7 @@ TEST_F(DocumentFolders, WhatMakeMakesOfTheRecipeIsTheSame) {
     DocumentFolder document(at("d"));
     document.edit({"", {ReplaceRecipe{recipe::write_recipe(recipe::default_recipe_on(64, 64))}}});
     document.edit({"", {SetKey{"network.heights", "graded"}, SetKey{"seed", "3"}}});
-    pipeline::run_make({at("d/recipe.toml"), at("by_make")});
+    commands::run_make({at("d/recipe.toml"), at("by_make")});
     make::Made const shown = make::make(document.document().recipe);
     report::write_terrain(shown, at("shown"));
     for (std::string const name : {"dem.tif", "network.gpkg", "network.tif", "recipe.toml"}) {

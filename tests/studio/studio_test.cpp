@@ -19,10 +19,10 @@
 #include <support.hpp>
 #include <zero_height.hpp>
 
+#include <thalweg/commands/make.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
-#include <thalweg/pipeline/commands/make.hpp>
 #include <thalweg/studio/document_folder.hpp>
 #include <thalweg/studio/drawing_files.hpp>
 
@@ -250,7 +250,7 @@ void edit_at_random(std::string const& folder, int edits, int compare_every, std
         }
         json const written = window.ask(R"({"id": 0, "do": "export"})");
         std::string const error = test::error_of([&] {
-            pipeline::run_make(
+            commands::run_make(
                 {.input = folder + "/recipe.toml", .output = folder + "/made", .existing = io::Existing::replace});
         });
         ASSERT_EQ(written["ok"].get<bool>(), error.empty()) << written << error;
@@ -339,7 +339,7 @@ TEST_F(Studios, ExportWhatMakeMakes) {
     json const written = window.ask(R"({"id": 7, "do": "export"})");
     ASSERT_EQ(written["ok"], true) << written;
     EXPECT_EQ(written["folder"], at("out/terrain"));
-    pipeline::run_make({.input = at("doc/recipe.toml"), .output = at("made")});
+    commands::run_make({.input = at("doc/recipe.toml"), .output = at("made")});
     for (json const& name : written["files"]) {
         std::string const file = name.get<std::string>();
         if (file != "report.json" && file != "report.html") { // they hold times
@@ -506,7 +506,7 @@ TEST_F(Studios, DrawnRiversBecomeTheTerrain) {
     EXPECT_TRUE(test::has(stale["error"].get<std::string>(), "meanwhile"));
     json const written = window.ask(R"({"id": 5, "do": "export"})");
     ASSERT_EQ(written["ok"], true) << written;
-    pipeline::run_make({.input = at("doc/recipe.toml"), .output = at("made")});
+    commands::run_make({.input = at("doc/recipe.toml"), .output = at("made")});
     for (char const* name : {"dem.tif", "network.gpkg", "lakes.tif"}) {
         EXPECT_EQ(test::bytes_of(at("doc/terrain/" + std::string(name))),
                   test::bytes_of(at("made/" + std::string(name))))

@@ -8,8 +8,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <thalweg/commands/blend.hpp>
 #include <thalweg/core/run/refuse.hpp>
-#include <thalweg/pipeline/commands/blend.hpp>
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
@@ -20,7 +20,7 @@ namespace thalweg::tools {
 namespace {
 
 struct BlendOptions {
-    pipeline::BlendParams params;
+    commands::BlendParams params;
     std::vector<double> at;
     std::vector<std::int64_t> window;
 };
@@ -82,7 +82,7 @@ void take_numbers(BlendOptions& options) {
     }
 }
 
-nlohmann::ordered_json json_of(pipeline::BlendedTin const& made, std::string const& file) {
+nlohmann::ordered_json json_of(commands::BlendedTin const& made, std::string const& file) {
     return {{"file", file},
             {"place", name_of(made.place)},
             {"at", {made.at.x, made.at.y}},
@@ -95,7 +95,7 @@ nlohmann::ordered_json json_of(pipeline::BlendedTin const& made, std::string con
             {"residual", made.fused.residual}};
 }
 
-std::string blend_in_words(pipeline::BlendedTin const& made, blend::Holes /*holes*/) {
+std::string blend_in_words(commands::BlendedTin const& made, blend::Holes /*holes*/) {
     return fmt::format("{} vertices inside the outline replaced by {}, {} added on it, around ({:.3f}, {:.3f}){}; the "
                        "patch's edge moved by {:.3f} m at most",
                        made.fused.removed, made.fused.inner, made.fused.added, made.at.x, made.at.y,
@@ -110,7 +110,7 @@ int blend(BlendOptions& options, Session const& session) {
             session.run.tell("blend", blend_in_words(made, options.params.patch.holes));
             print_result(session, json_of(made, file), {file});
         },
-        pipeline::run_blend(options.params, session.run));
+        commands::run_blend(options.params, session.run));
     return Exit::done;
 }
 

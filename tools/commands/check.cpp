@@ -9,8 +9,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <thalweg/commands/check.hpp>
 #include <thalweg/core/run/messages.hpp>
-#include <thalweg/pipeline/commands/check.hpp>
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
@@ -22,7 +22,7 @@ namespace thalweg::tools {
 namespace {
 
 struct CheckOptions {
-    pipeline::CheckParams params;
+    commands::CheckParams params;
     std::vector<std::string> fields;
 };
 
@@ -52,7 +52,7 @@ void print_certificate(measure::Certificate const& c) {
     }
 }
 
-void print_table(pipeline::CheckResult const& checked, std::string const& network, Session const& session) {
+void print_table(commands::CheckResult const& checked, std::string const& network, Session const& session) {
     fmt::print("{} arcs, {} nodes\n", checked.arcs, checked.nodes);
     for (Check const& c : checked.checks) {
         fmt::print("{:<24}{:>8.6g}  {}\n", c.name, c.value,
@@ -78,9 +78,9 @@ void print_table(pipeline::CheckResult const& checked, std::string const& networ
 
 int check(CheckOptions& options, Session const& session) {
     options.params.read.fields = fields_by_quantity(options.fields);
-    pipeline::CheckResult const checked = pipeline::run_check(options.params, session.run);
+    commands::CheckResult const checked = commands::run_check(options.params, session.run);
     if (session.json) {
-        fmt::print("{}", pipeline::as_json(checked));
+        fmt::print("{}", commands::as_json(checked));
     } else {
         print_table(checked, options.params.network, session);
     }

@@ -9,9 +9,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <thalweg/commands/convert.hpp>
 #include <thalweg/io/network/schema.hpp>
 #include <thalweg/io/network/write_network.hpp>
-#include <thalweg/pipeline/commands/convert.hpp>
 #include <thalweg/report/report.hpp>
 
 #include "commands/commands.hpp"
@@ -23,12 +23,12 @@ namespace thalweg::tools {
 namespace {
 
 struct ConvertOptions {
-    pipeline::ConvertParams params;
+    commands::ConvertParams params;
     std::vector<std::string> fields;
     std::string schema = "native";
 };
 
-void tell(pipeline::ConvertResult const& made, Session const& session) {
+void tell(commands::ConvertResult const& made, Session const& session) {
     std::size_t const shown = session.verbose ? made.findings.size() : 10;
     for (std::size_t i = 0; i < std::min(shown, made.findings.size()); ++i) {
         session.run.say(line_of(made.findings[i]));
@@ -49,7 +49,7 @@ void tell(pipeline::ConvertResult const& made, Session const& session) {
     }
 }
 
-nlohmann::ordered_json json_of(pipeline::ConvertResult const& made) {
+nlohmann::ordered_json json_of(commands::ConvertResult const& made) {
     nlohmann::ordered_json json{{"written", made.written},
                                 {"schema", made.schema},
                                 {"crs", made.crs},
@@ -69,7 +69,7 @@ nlohmann::ordered_json json_of(pipeline::ConvertResult const& made) {
 int convert(ConvertOptions& options, Session const& session) {
     options.params.schema = io::schema_named(options.schema);
     options.params.read.fields = fields_by_quantity(options.fields);
-    pipeline::ConvertResult const made = pipeline::run_convert(options.params, session.run);
+    commands::ConvertResult const made = commands::run_convert(options.params, session.run);
     tell(made, session);
     print_result(session, json_of(made), made.written);
     return Exit::done;
@@ -79,7 +79,7 @@ int convert(ConvertOptions& options, Session const& session) {
 
 Command add_convert(CLI::App& app, Session& session) {
     auto const options = std::make_shared<ConvertOptions>();
-    pipeline::ConvertParams& params = options->params;
+    commands::ConvertParams& params = options->params;
     std::string const formats = names_in_words(io::network_formats());
     add_network_options(app, params.path, params.read, options->fields);
     app.add_option("-o,--output", params.output,

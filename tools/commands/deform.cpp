@@ -7,8 +7,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <thalweg/commands/deform.hpp>
 #include <thalweg/core/run/refuse.hpp>
-#include <thalweg/pipeline/commands/deform.hpp>
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
@@ -19,7 +19,7 @@ namespace thalweg::tools {
 namespace {
 
 struct DeformOptions {
-    pipeline::DeformParams params;
+    commands::DeformParams params;
     std::vector<double> pull;
     std::vector<double> axis;
 };
@@ -42,14 +42,14 @@ int deform(DeformOptions& options, Session const& session) {
     take_numbers(options);
     std::string const& file = options.params.output;
     std::size_t const pulled = options.params.handles.size();
-    pipeline::DeformResult const made = pipeline::run_deform(options.params, session.run);
-    if (auto const* const mesh = std::get_if<pipeline::DeformedTin>(&made)) {
+    commands::DeformResult const made = commands::run_deform(options.params, session.run);
+    if (auto const* const mesh = std::get_if<commands::DeformedTin>(&made)) {
         session.run.tell("deform", fmt::format("{} vertices, {} of them pulled", mesh->vertices, pulled));
         print_result(session,
                      {{"file", file}, {"vertices", mesh->vertices}, {"handles", pulled}, {"residual", mesh->residual}},
                      {file});
     } else {
-        auto const& dem = std::get<pipeline::DeformedDem>(made);
+        auto const& dem = std::get<commands::DeformedDem>(made);
         session.run.tell("deform", fmt::format("{} cells, {} of them pulled", dem.cells, pulled));
         print_result(session,
                      {{"file", file},

@@ -5,7 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <thalweg/pipeline/commands/draw.hpp>
+#include <thalweg/commands/draw.hpp>
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
@@ -15,8 +15,8 @@ namespace thalweg::tools {
 
 namespace {
 
-int draw(pipeline::DrawParams const& params, Session const& session) {
-    pipeline::DrawResult const drawn = pipeline::run_draw(params, session.run);
+int draw(commands::DrawParams const& params, Session const& session) {
+    commands::DrawResult const drawn = commands::run_draw(params, session.run);
     print_result(session, {{"files", drawn.files}, {"notes", texts_of(drawn.findings)}}, drawn.files, -1);
     return Exit::done;
 }
@@ -24,7 +24,7 @@ int draw(pipeline::DrawParams const& params, Session const& session) {
 } // namespace
 
 Command add_draw(CLI::App& app, Session& session) {
-    auto const params = std::make_shared<pipeline::DrawParams>();
+    auto const params = std::make_shared<commands::DrawParams>();
     app.add_option("SOURCE", params->source,
                    "A folder written by make, any height raster GDAL reads, or the table.csv of an ensemble.")
         ->type_name("FILE")

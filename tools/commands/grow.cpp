@@ -9,8 +9,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <thalweg/commands/grow.hpp>
 #include <thalweg/core/run/refuse.hpp>
-#include <thalweg/pipeline/commands/grow.hpp>
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
@@ -21,14 +21,14 @@ namespace thalweg::tools {
 namespace {
 
 struct GrowOptions {
-    pipeline::GrowParams params;
+    commands::GrowParams params;
     std::string rule = "tokunaga";
     bool shapes_tree = false; ///< --generator, --order or --rule is given
 };
 
 constexpr std::array<char const*, 3> side_rules{"tokunaga", "constant", "plane"}; // as network::SideRule
 
-nlohmann::ordered_json json_of(GrowOptions const& options, pipeline::GrowResult const& c) {
+nlohmann::ordered_json json_of(GrowOptions const& options, commands::GrowResult const& c) {
     return {{"generator", options.params.tree.generator},
             {"order", c.streams.order},
             {"rule", options.rule},
@@ -42,7 +42,7 @@ nlohmann::ordered_json json_of(GrowOptions const& options, pipeline::GrowResult 
             {"bifurcation_law", c.laws.bifurcation}};
 }
 
-void print_table(pipeline::GrowResult const& c) {
+void print_table(commands::GrowResult const& c) {
     fmt::print("links    {}, of which {} are sources\n", c.streams.links, c.streams.sources);
     fmt::print("order    {}\n", c.streams.order);
     fmt::print("\norder w      streams N_w  N_w / N_w+1 (law {:.3f})\n", c.laws.bifurcation);
@@ -61,7 +61,7 @@ void print_table(pipeline::GrowResult const& c) {
 
 /// What the options ask to be printed must be one thing.
 void check_output(GrowOptions const& options, Session const& session) {
-    pipeline::GrowParams const& params = options.params;
+    commands::GrowParams const& params = options.params;
     if (!params.rules.empty()) {
         refuse_if<BadParameter>(options.shapes_tree,
                                 "--generator, --order and --rule are those of Tokunaga networks: --rules has its own");
@@ -75,9 +75,9 @@ void check_output(GrowOptions const& options, Session const& session) {
 
 int grow(GrowOptions& options, Session const& session) {
     check_output(options, session);
-    pipeline::GrowParams& params = options.params;
+    commands::GrowParams& params = options.params;
     params.tree.rule = static_cast<network::SideRule>(std::ranges::find(side_rules, options.rule) - side_rules.begin());
-    pipeline::GrowResult const grown = pipeline::run_grow(params, session.run);
+    commands::GrowResult const grown = commands::run_grow(params, session.run);
     if (!params.output.empty()) {
         print_result(session, {{"file", params.output}, {"signs", grown.word.size()}, {"lines", grown.lines}},
                      {params.output}, -1);
@@ -95,7 +95,7 @@ int grow(GrowOptions& options, Session const& session) {
 
 Command add_grow(CLI::App& app, Session& session) {
     auto const options = std::make_shared<GrowOptions>();
-    pipeline::GrowParams& params = options->params;
+    commands::GrowParams& params = options->params;
     app.add_flag("--lsystem", params.word, "Print the network as an L-system word on one line.");
     app.add_option("--rules", params.rules,
                    "Rewrite the L-system of this text file instead: lines axiom WORD, iterations N, angle DEGREES and "

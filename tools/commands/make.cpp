@@ -16,10 +16,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <thalweg/commands/ensemble.hpp>
+#include <thalweg/commands/make.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/files/files.hpp>
-#include <thalweg/pipeline/commands/ensemble.hpp>
-#include <thalweg/pipeline/commands/make.hpp>
 #include <thalweg/report/report.hpp>
 
 #include "commands/commands.hpp"
@@ -76,8 +76,8 @@ std::string forecast_in_words(recipe::Forecast const& forecast, bool json) {
 
 /// Of make; rebuild has two more.
 struct MakeOptions {
-    pipeline::RebuildFromParams params;
-    pipeline::EnsembleParams ensemble; ///< what an ensemble has beside params
+    commands::RebuildFromParams params;
+    commands::EnsembleParams ensemble; ///< what an ensemble has beside params
     std::string seeds;                 ///< A-B
     std::string share;                 ///< K/N
     std::vector<std::string> fields;
@@ -101,8 +101,8 @@ std::optional<std::array<std::int64_t, 2>> two_numbers(std::string_view text, ch
 
 /// Runs make --ensemble.
 int make_ensemble(MakeOptions& options, Session& session) {
-    pipeline::EnsembleParams params = options.ensemble;
-    static_cast<pipeline::MakeParams&>(params) = static_cast<pipeline::MakeParams const&>(options.params);
+    commands::EnsembleParams params = options.ensemble;
+    static_cast<commands::MakeParams&>(params) = static_cast<commands::MakeParams const&>(options.params);
     if (!options.seeds.empty()) {
         auto const seeds = two_numbers(options.seeds, '-');
         if (!seeds || (*seeds)[0] > (*seeds)[1]) {
@@ -120,7 +120,7 @@ int make_ensemble(MakeOptions& options, Session& session) {
         params.shares = (*share)[1];
     }
     if (options.dry_run) {
-        recipe::Forecast const expected = pipeline::forecast_ensemble(params, session.run);
+        recipe::Forecast const expected = commands::forecast_ensemble(params, session.run);
         fmt::print("{}", forecast_in_words(expected, session.json));
         return Exit::done;
     }
@@ -132,7 +132,7 @@ int make_ensemble(MakeOptions& options, Session& session) {
         session.run.found = [](Finding const&) {};
     }
     ensemble::EnsembleResult const made =
-        ranks ? pipeline::run_ensemble_on(*ranks, params, session.run) : pipeline::run_ensemble(params, session.run);
+        ranks ? commands::run_ensemble_on(*ranks, params, session.run) : commands::run_ensemble(params, session.run);
     if (ranks && ranks->rank() > 0) {
         return Exit::done;
     }
@@ -185,13 +185,13 @@ int make(MakeOptions& options, bool rebuilds, Session& session) {
                         ranks));
     }
     if (options.dry_run) {
-        recipe::Forecast const expected = rebuilds ? pipeline::forecast_rebuild(options.params, session.run)
-                                                   : pipeline::forecast_make(options.params, session.run);
+        recipe::Forecast const expected = rebuilds ? commands::forecast_rebuild(options.params, session.run)
+                                                   : commands::forecast_make(options.params, session.run);
         fmt::print("{}", forecast_in_words(expected, session.json));
         return Exit::done;
     }
     make::Made const made =
-        rebuilds ? pipeline::run_rebuild(options.params, session.run) : pipeline::run_make(options.params, session.run);
+        rebuilds ? commands::run_rebuild(options.params, session.run) : commands::run_make(options.params, session.run);
     for (Check const& check : made.assessment.checks) {
         if (!check.ok) {
             session.run.tell("check", fmt::format("{}  {}", in_words(check), toned(Tone::bad, "FAILED", stderr)));
@@ -278,7 +278,7 @@ void add_options_of_make(CLI::App& app, MakeOptions& options, Session& session) 
 
 /// The options of ensembles, which make has alone.
 void add_options_of_ensembles(CLI::App& app, MakeOptions& options) {
-    pipeline::EnsembleParams& params = options.ensemble;
+    commands::EnsembleParams& params = options.ensemble;
     CLI::Option* const members =
         app.add_option("--ensemble", params.members,
                        "Make N terrains: member i = 0, 1, ... has the recipe's seed + i. The folder then holds "

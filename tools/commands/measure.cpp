@@ -7,8 +7,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <thalweg/commands/measure.hpp>
 #include <thalweg/core/run/refuse.hpp>
-#include <thalweg/pipeline/commands/measure.hpp>
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
@@ -21,12 +21,12 @@ namespace {
 using nlohmann::ordered_json;
 
 struct MeasureOptions {
-    pipeline::MeasureParams params;
+    commands::MeasureParams params;
     std::string theta = "0.45";
     std::vector<std::string> fields;
 };
 
-ordered_json json_of(pipeline::MeasureResult const& made) {
+ordered_json json_of(commands::MeasureResult const& made) {
     ordered_json json{{"files", made.files},
                       {"notes", texts_of(made.findings)},
                       {"cells", made.cells},
@@ -39,14 +39,14 @@ ordered_json json_of(pipeline::MeasureResult const& made) {
         json["dinf"] = {{"greatest_m2", *made.dinf_m2}};
     }
     if (made.catchments) {
-        pipeline::MeasuredCatchments const& c = *made.catchments;
+        commands::MeasuredCatchments const& c = *made.catchments;
         json["catchments"] = {{"count", c.count.catchments},     {"parts", c.count.parts},
                               {"basins", c.count.basins},        {"arcs", c.arcs},
                               {"arcs_cut", c.arcs_cut},          {"arcs_outside", c.arcs_outside},
                               {"cells_without", c.cells_without}};
     }
     if (made.streams) {
-        pipeline::MeasuredStreams const& s = *made.streams;
+        commands::MeasuredStreams const& s = *made.streams;
         json["streams"] = {
             {"arcs", s.arcs}, {"arcs_edge", s.arcs_edge}, {"knickpoints", s.knickpoints}, {"theta", s.theta}};
         if (s.theta_r2) {
@@ -73,7 +73,7 @@ std::optional<double> theta_of(std::string const& text) {
 int measure(MeasureOptions& options, Session const& session) {
     options.params.read.fields = fields_by_quantity(options.fields);
     options.params.theta = theta_of(options.theta);
-    pipeline::MeasureResult const made = pipeline::run_measure(options.params, session.run);
+    commands::MeasureResult const made = commands::run_measure(options.params, session.run);
     print_result(session, json_of(made), made.files, -1);
     return Exit::done;
 }

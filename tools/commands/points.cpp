@@ -8,8 +8,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <thalweg/commands/points.hpp>
 #include <thalweg/io/mesh/points.hpp>
-#include <thalweg/pipeline/commands/points.hpp>
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
@@ -19,8 +19,8 @@ namespace thalweg::tools {
 
 namespace {
 
-int points(pipeline::PointsParams const& params, Session const& session) {
-    pipeline::PointsResult const made = pipeline::run_points(params, session.run);
+int points(commands::PointsParams const& params, Session const& session) {
+    commands::PointsResult const made = commands::run_points(params, session.run);
     session.run.tell("points", fmt::format("{}", made.count));
     print_result(session, {{"file", params.output}, {"crs", made.crs}, {"points", made.count}}, {params.output});
     return Exit::done;
@@ -29,7 +29,7 @@ int points(pipeline::PointsParams const& params, Session const& session) {
 } // namespace
 
 Command add_points(CLI::App& app, Session& session) {
-    auto const params = std::make_shared<pipeline::PointsParams>();
+    auto const params = std::make_shared<commands::PointsParams>();
     std::string const formats = names_in_words(io::point_formats());
     app.add_option("SOURCE", params->path, "A folder written by make, or any height raster GDAL reads.")
         ->type_name("FILE")
@@ -38,7 +38,7 @@ Command add_points(CLI::App& app, Session& session) {
     app.add_option("--every", params->every, "Take every Nth row and column. Default: every cell.")
         ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()));
     app.add_flag_callback(
-        "--skeleton", [params] { params->of = pipeline::PointsOf::skeleton; },
+        "--skeleton", [params] { params->of = commands::PointsOf::skeleton; },
         "Take only river and ridge cells of a folder written by make.");
     app.add_option("--format", params->format, "Write this format: " + formats + ". Default: by the file extension.");
     add_dem_options(app, params->reading);

@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <thalweg/commands/make.hpp>
 #include <thalweg/core/run/messages.hpp>
-#include <thalweg/pipeline/commands/make.hpp>
 #include <thalweg/recipe/recipe.hpp>
 
 #include "commands/commands.hpp"
@@ -157,7 +157,7 @@ Command add_recipe(CLI::App& app, Session& session) {
                "  thalweg recipe --for samples/walker_nhdplus.gpkg > walker.toml\n");
     return [dump, rivers, source_crs, key, &session] {
         if (!rivers->empty()) {
-            fmt::print("{}", recipe::write_recipe(pipeline::recipe_for(*rivers, *source_crs, session.run)));
+            fmt::print("{}", recipe::write_recipe(commands::recipe_for(*rivers, *source_crs, session.run)));
         } else if (*dump) {
             fmt::print("{}", recipe::write_recipe(recipe::default_recipe()));
         } else {

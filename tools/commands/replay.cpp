@@ -7,8 +7,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <thalweg/commands/replay.hpp>
 #include <thalweg/core/run/messages.hpp>
-#include <thalweg/pipeline/commands/replay.hpp>
 
 #include "commands/commands.hpp"
 #include "terminal/terminal.hpp"
@@ -17,8 +17,8 @@ namespace thalweg::tools {
 
 namespace {
 
-int replay(pipeline::ReplayParams const& params, Session const& session) {
-    pipeline::ReplayResult const found = pipeline::run_replay(params, session.run);
+int replay(commands::ReplayParams const& params, Session const& session) {
+    commands::ReplayResult const found = commands::run_replay(params, session.run);
     for (std::string const& name : found.same) {
         fmt::print("{}     {}\n", toned(Tone::good, "same", stdout), printable(name));
     }
@@ -34,7 +34,7 @@ int replay(pipeline::ReplayParams const& params, Session const& session) {
 } // namespace
 
 Command add_replay(CLI::App& app, Session& session) {
-    auto const params = std::make_shared<pipeline::ReplayParams>();
+    auto const params = std::make_shared<commands::ReplayParams>();
     auto const verify = std::make_shared<bool>(true);
     app.add_option("DIR", params->folder, "A folder written by make.")->type_name("DIR")->required();
     app.add_flag("--verify", *verify, "Compare the bytes. This is always done; the option makes scripts readable.");

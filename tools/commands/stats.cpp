@@ -10,9 +10,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <thalweg/commands/stats.hpp>
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
-#include <thalweg/pipeline/commands/stats.hpp>
 #include <thalweg/report/report.hpp>
 
 #include "commands/commands.hpp"
@@ -104,10 +104,10 @@ void print_recipe(recipe::DemRecipe const& made) {
     fmt::print("{}", recipe::write_recipe(made.recipe));
 }
 
-int stats(pipeline::StatsParams const& params, Session const& session) {
+int stats(commands::StatsParams const& params, Session const& session) {
     refuse_if<BadParameter>(params.recipe && session.json,
                             "thalweg stats prints a recipe or JSON: give --recipe or --json, not both");
-    pipeline::StatsResult const found = pipeline::run_stats(params, session.run);
+    commands::StatsResult const found = commands::run_stats(params, session.run);
     if (found.recipe) {
         print_recipe(*found.recipe);
         return Exit::done;
@@ -154,7 +154,7 @@ int stats(pipeline::StatsParams const& params, Session const& session) {
 } // namespace
 
 Command add_stats(CLI::App& app, Session& session) {
-    auto const params = std::make_shared<pipeline::StatsParams>();
+    auto const params = std::make_shared<commands::StatsParams>();
     app.add_option("DEM", params->path, "Any height raster GDAL reads; for --laws also a file of river lines.")
         ->type_name("FILE")
         ->required();

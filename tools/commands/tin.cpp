@@ -6,8 +6,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <thalweg/commands/tin.hpp>
 #include <thalweg/io/mesh/tin.hpp>
-#include <thalweg/pipeline/commands/tin.hpp>
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
@@ -17,7 +17,7 @@ namespace thalweg::tools {
 
 namespace {
 
-nlohmann::ordered_json json_of(pipeline::TinResult const& made, std::string const& file) {
+nlohmann::ordered_json json_of(commands::TinResult const& made, std::string const& file) {
     nlohmann::ordered_json json{{"file", file},
                                 {"source", made.source},
                                 {"crs", made.crs},
@@ -43,7 +43,7 @@ nlohmann::ordered_json json_of(pipeline::TinResult const& made, std::string cons
     return json;
 }
 
-std::string tin_in_words(pipeline::TinResult const& made) {
+std::string tin_in_words(commands::TinResult const& made) {
     std::string words = fmt::format("{} vertices, {} triangles", made.tin.vertices.size(), made.tin.triangles.size());
     if (made.error_m) {
         words += fmt::format(", within {:.3f} m", *made.error_m);
@@ -81,8 +81,8 @@ std::string tin_in_words(pipeline::TinResult const& made) {
     return words;
 }
 
-int tin(pipeline::TinParams const& params, Session const& session) {
-    pipeline::TinResult const made = pipeline::run_tin(params, session.run);
+int tin(commands::TinParams const& params, Session const& session) {
+    commands::TinResult const made = commands::run_tin(params, session.run);
     session.run.tell("tin", tin_in_words(made));
     print_result(session, json_of(made, params.output), {params.output});
     return Exit::done;
@@ -91,7 +91,7 @@ int tin(pipeline::TinParams const& params, Session const& session) {
 } // namespace
 
 Command add_tin(CLI::App& app, Session& session) {
-    auto const params = std::make_shared<pipeline::TinParams>();
+    auto const params = std::make_shared<commands::TinParams>();
     std::string const formats = names_in_words(io::tin_formats());
     app.add_option(
            "SOURCE", params->path,
