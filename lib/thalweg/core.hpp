@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// All public headers of the module.
+/// The values that all modules share (grids, rasters, river networks, TINs, findings), and what runs them: errors,
+/// threads, progress, random numbers.
 #include <thalweg/core/append.hpp>
 #include <thalweg/core/bounded_json.hpp>
 #include <thalweg/core/by_enum.hpp>

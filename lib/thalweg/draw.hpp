@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// All public headers of the module.
+/// Values → pictures as PNG, SVG or PDF.
 #include <thalweg/draw/comparison.hpp>
 #include <thalweg/draw/contact_sheet.hpp>
 #include <thalweg/draw/diagrams.hpp>

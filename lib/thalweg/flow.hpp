@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// All public headers of the module.
+/// A DEM → flow directions, a conditioned DEM, catchments, streams.
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/flow/condition.hpp>
 #include <thalweg/flow/direction.hpp>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// All public headers of the module.
+/// Lines and points → intersections, TINs, Voronoi diagrams, medial lines.
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/diagram.hpp>
 #include <thalweg/geometry/natural_neighbours.hpp>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// All public headers of the module.
+/// Files ↔ values: rasters, networks, meshes and points; coordinate systems and units.
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/files/tar.hpp>

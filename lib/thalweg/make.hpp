@@ -9,6 +9,7 @@
 #include <thalweg/make/features.hpp>
 #include <thalweg/make/file_values.hpp>
 #include <thalweg/make/given.hpp>
+#include <thalweg/make/ground.hpp>
 #include <thalweg/make/laws.hpp>
 #include <thalweg/make/line_sources.hpp>
 #include <thalweg/make/make.hpp>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// All public headers of the module.
+/// A DEM or a network → measures, checks and findings. Nothing is changed.
 #include <thalweg/measure/drainage/certificate.hpp>
 #include <thalweg/measure/laws/fits.hpp>
 #include <thalweg/measure/laws/network_laws.hpp>

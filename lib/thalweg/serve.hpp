@@ -2,5 +2,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// All public headers of the module.
+/// Requests of a browser on this machine → a page, files, messages of a WebSocket.
 #include <thalweg/serve/serve.hpp>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// All public headers of the module.
+/// Numbers, rivers and points → heights that a surface must pass through: random fields and points, ridges, regression.
 #include <thalweg/skeleton/draw_skeleton.hpp>
 #include <thalweg/skeleton/midpoint_inverse.hpp>
 #include <thalweg/skeleton/random_fields.hpp>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// All public headers of the module.
+/// Numbers → numbers: Laplace and Poisson on grids, Fourier transforms, least squares, statistics of fields.
 #include <thalweg/solver/grid/poisson.hpp>
 #include <thalweg/solver/linear/linear.hpp>
 #include <thalweg/solver/opencl/devices.hpp>

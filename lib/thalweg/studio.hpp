@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// All public headers of the module.
+/// A folder with a recipe and its inputs ↔ a document that is edited, its terrain, and a page that shows both.
 #include <thalweg/studio/document.hpp>
 #include <thalweg/studio/document_folder.hpp>
 #include <thalweg/studio/drawing.hpp>

@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// All public headers of the module.
+/// Rivers and a skeleton → a height for every cell: equilibrium, dilation, diffusion, TINs.
 #include <thalweg/surface/diffusion/diffusion.hpp>
 #include <thalweg/surface/dilation/dilation.hpp>
 #include <thalweg/surface/dilation/increment.hpp>
 #include <thalweg/surface/dilation/separable.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 #include <thalweg/surface/equilibrium/features.hpp>
+#include <thalweg/surface/equilibrium/match_texture.hpp>
 #include <thalweg/surface/equilibrium/rebuild.hpp>
 #include <thalweg/surface/gaps/close_gaps.hpp>
 #include <thalweg/surface/tin/level_areas.hpp>

@@ -96,7 +96,7 @@ DTYPES = {
 }
 TEXTS = {"std::string", "std::string_view", "char const*", "io::Source"}
 # What only the library makes: parts of a terrain that belong together.
-ONLY_MADE = {("recipe", "Plan")} | {("make", name) for name in ("Planform", "Terrain", "Made", "Assessment", "SurfaceMeasures", "Rivers", "RiverFile")}
+ONLY_MADE = {("recipe", "Plan")} | {("make", name) for name in ("Ground", "Planform", "Terrain", "Water", "Made", "Assessment", "SurfaceMeasures", "Rivers", "RiverFile")}
 # By hand: by_hand.cpp binds it.
 BY_HAND = {("", "StreamNetwork"), ("draw", "Picture")}
 NOT_RECORDS = {

@@ -60,7 +60,7 @@ def parts_of(network: object) -> Parts:
     rivers = made.terrain.rivers
     if not rivers.network.planform.arc_count:
         raise bad_input("Terrain", "the terrain has no rivers: its recipe has no [network]")
-    return Parts(rivers.network.planform, rivers.network, rivers.orders, made.terrain.areas, made.terrain.grid.crs)
+    return Parts(rivers.network.planform, rivers.network, rivers.orders, made.terrain.water.areas, made.terrain.grid.crs)
 
 
 def to_geodataframe(network: _core.StreamNetwork | _core.ElevatedNetwork | flow.ExtractedStreams | Terrain, layer: str = "arcs", *,

@@ -68,7 +68,7 @@ class Terrain:
     @property
     def has_dem(self) -> bool:
         """False where the recipe asks for rivers alone."""
-        return self.made.terrain.surface is not None
+        return self.made.terrain.ground.dem is not None
 
     @functools.cached_property
     def has_network(self) -> bool:
@@ -84,10 +84,10 @@ class Terrain:
         BadInput
             Where there is none: has_dem tells.
         """
-        surface = self.made.terrain.surface
-        if surface is None:
+        dem = self.made.terrain.ground.dem
+        if dem is None:
             raise bad_input("Terrain", "the terrain has no DEM: its recipe asks for rivers alone")
-        return surface.dem
+        return dem
 
     def _rivers(self) -> terrains.Rivers:
         if not self.has_network:
@@ -124,15 +124,14 @@ class Terrain:
     def areas(self) -> flows.ContributingAreas:
         """[m²] Contributing areas by arc and node of the network; raises as network."""
         self._rivers()
-        return self.made.terrain.areas
+        return self.made.terrain.water.areas
 
     @functools.cached_property
     def flow(self) -> flows.FlowField:
         """Flow over the DEM; raises as dem."""
-        drainage = self.made.terrain.drainage
-        if drainage is None:
+        if not self.has_dem:
             raise bad_input("Terrain", "the terrain has no DEM that water flows over: its recipe asks for rivers alone")
-        return drainage
+        return self.made.terrain.water.drainage
 
     @functools.cached_property
     def catchments(self) -> flows.Catchments | None:
@@ -142,12 +141,13 @@ class Terrain:
     @functools.cached_property
     def tin(self) -> _core.Tin | None:
         """TIN of rivers and points, where the surface is drawn over one."""
-        return self.made.terrain.tin
+        tin = self.made.terrain.ground.tin
+        return tin if len(tin.vertices) else None
 
     @functools.cached_property
     def ridges(self) -> _core.RidgeLines | None:
         """Ridges between streams, where the recipe asks for them."""
-        ridges = self.made.terrain.ridges
+        ridges = self.made.terrain.ground.ridges
         return ridges if ridges.lines else None
 
     @property

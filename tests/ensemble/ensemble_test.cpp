@@ -107,7 +107,7 @@ TEST(Ensemble, AMemberIsWhatItsRecipeMakes) {
     MadeMember const member = make_member(ensemble, 3);
     ASSERT_TRUE(member.made);
     Made const alone = make::make(recipe_of(ensemble, member_of(ensemble, 3)));
-    EXPECT_TRUE(std::ranges::equal(member.made->terrain.surface->dem.values(), alone.terrain.surface->dem.values()));
+    EXPECT_TRUE(std::ranges::equal(member.made->terrain.ground.dem.values(), alone.terrain.ground.dem.values()));
     EXPECT_EQ(member.row.state, MemberState::ok) << member.row.reason;
     auto const found = [&](std::string const& column) {
         auto const at = std::ranges::find(member.row.values, column, [](auto const& v) { return v.first; });

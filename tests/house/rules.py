@@ -216,13 +216,16 @@ def check_types(sources):
 
 
 def check_umbrellas(sources):
-    """Headers lib/thalweg/MODULE.hpp that do not include just the public headers of their module."""
+    """Headers lib/thalweg/MODULE.hpp that do not begin with what the module takes and gives, or do not include just its public
+    headers."""
     public = collections.defaultdict(set)
     included = {}
     for name, lines in sources:
         path = pathlib.PurePath(name)
         if name.endswith(".hpp") and len(path.parts) == 3:
             included[place(name)] = {INCLUDE.match(line)[2] for line in lines if INCLUDE.match(line)}
+            if place(name) != "core" and not any(re.match("///.*[→↔]", line) for line in lines):
+                yield f"{name}:1: say what the module takes and gives: /// DEM → flow directions"
         elif name.endswith(".hpp") and "internal" not in path.parts and name.removeprefix("lib/") not in FOREIGN_IN_HEADERS:
             public[place(name)].add(name.removeprefix("lib/"))
     for module, headers in sorted(included.items()):

@@ -87,14 +87,14 @@ Raster<float> land_with_point(std::string const& method, Vec2 p, ScratchFolder c
                 fmt::format("{},{},{}", 500020 + 37 * (i % 8) * 2, 5000020 + 71 * (i / 8), 300 + 7 * (i % 11)));
         }
     }
-    return made_with(method, "points = \"points.csv\"", rows, folder).terrain.surface->dem;
+    return made_with(method, "points = \"points.csv\"", rows, folder).terrain.ground.dem;
 }
 
 Raster<float> land_with_ridge(std::string const& method, Vec2 p, ScratchFolder const& folder) {
     Vec2 const inside{p.x < 500312 ? 500100.0 : 500500.0, 5000300};
     folder.write("ridges.geojson",
                  test::geojson(test::line(fmt::format("[{},{},900],[{},{},900]", p.x, p.y, inside.x, inside.y))));
-    return made_with(method, "ridge_lines = \"ridges.geojson\"", {}, folder).terrain.surface->dem;
+    return made_with(method, "ridge_lines = \"ridges.geojson\"", {}, folder).terrain.ground.dem;
 }
 
 /// The greatest difference of two DEMs.

@@ -29,8 +29,8 @@ Made terrain() {
     t.terrain.rivers.network.node_z = {4.0, 4.0, 2.0, 0.0};
     t.terrain.rivers.network.arc_z = {{4.0, 2.0}, {4.0, 2.0}, {2.0, 0.0}};
     t.terrain.rivers.orders = network::order(t.terrain.rivers.network.planform);
-    t.terrain.areas.us_area_m2 = t.terrain.areas.ds_area_m2 = {-1.0, -1.0, -1.0};
-    t.terrain.areas.node_m2 = {-1.0, -1.0, -1.0, -1.0};
+    t.terrain.water.areas.us_area_m2 = t.terrain.water.areas.ds_area_m2 = {-1.0, -1.0, -1.0};
+    t.terrain.water.areas.node_m2 = {-1.0, -1.0, -1.0, -1.0};
     t.planform.file.attributes.columns = {{"name", AttributeTable::Type::text},
                                           {"name_of_the_river", AttributeTable::Type::text}};
     for (std::string const name : {"one", "two", "three", "four", "five"}) {

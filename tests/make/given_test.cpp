@@ -154,7 +154,7 @@ TEST(GivenAreas, OfTheFileStandBesideThoseOfTheTerrain) {
         for (ArcId a = 0; a < network.arc_count(); ++a) {
             double const km2 = network.arc(a).feature == 1 ? 2.0 : network.arc(a).feature == 2 ? 4.0 : 0.0;
             if (km2 > 0.0) {
-                ratios.push_back(t.terrain.areas.ds_area_m2[a] / (1e6 * km2));
+                ratios.push_back(t.terrain.water.areas.ds_area_m2[a] / (1e6 * km2));
             }
         }
         std::ranges::sort(ratios);

@@ -95,11 +95,11 @@ void expect_lawful(Made const& t) {
         EXPECT_TRUE(c.ok) << c.name << " " << c.value;
     }
     EXPECT_EQ(t.assessment.pits, 0);
-    ASSERT_TRUE(t.terrain.drained);
-    EXPECT_EQ(t.terrain.drained->banks.raised_cells, 0);
-    EXPECT_EQ(t.terrain.drained->depressions.raised_cells + t.terrain.drained->depressions.cut_cells, 0);
+    ASSERT_TRUE(t.terrain.water.is_conditioned);
+    EXPECT_EQ(t.terrain.water.banks.raised_cells, 0);
+    EXPECT_EQ(t.terrain.water.depressions.raised_cells + t.terrain.water.depressions.cut_cells, 0);
     for (std::int64_t i = 0; i < t.terrain.grid.cells(); ++i) {
-        EXPECT_TRUE(std::isnan(t.terrain.valley.z[i]) || t.terrain.valley.z[i] == t.terrain.surface->dem[i]);
+        EXPECT_TRUE(std::isnan(t.terrain.bed.valley.z[i]) || t.terrain.bed.valley.z[i] == t.terrain.ground.dem[i]);
     }
 }
 
@@ -117,7 +117,7 @@ double mean_of(Made const& t, std::int64_t from_column, std::int64_t to_column) 
     for (std::int64_t i = 0; i < t.terrain.grid.cells(); ++i) {
         std::int64_t const column = t.terrain.grid.at(i).col;
         if (column >= from_column && column < to_column) {
-            sum += static_cast<double>(t.terrain.surface->dem[i]);
+            sum += static_cast<double>(t.terrain.ground.dem[i]);
             ++cells;
         }
     }
@@ -166,29 +166,29 @@ TEST(LandInEquilibrium, HeightsOfRiversAreKeptOrUpperBounds) {
     EXPECT_GT(source, 100.0);
     EXPECT_NEAR(ends.terrain.rivers.network.node_z[0], source, 0.1);
     EXPECT_LE(soft.terrain.rivers.network.node_z[0], source + 0.1);
-    EXPECT_EQ(fixed.terrain.equilibrium->max_lowered_m, 0.0);
+    EXPECT_EQ(fixed.terrain.ground.equilibrium()->max_lowered_m, 0.0);
 }
 
 TEST(LandInEquilibrium, LakesAreLevelAndReported) {
     Files const files;
     Made const t = made(lines + path + "[surface]\nlakes = \"lakes.geojson\"\n", files.folder());
     expect_lawful(t);
-    EXPECT_EQ(t.terrain.lakes, 1);
+    EXPECT_EQ(t.terrain.bed.lakes, 1);
     EXPECT_GT(t.assessment.certificate->lake_cells, 5);
     Cell const middle = t.terrain.grid.cell_of({502050, 5001400});
     std::int64_t level = 0;
     for (std::int64_t i = 0; i < t.terrain.grid.cells(); ++i) {
-        level += t.terrain.surface->dem[i] == t.terrain.surface->dem[middle] ? 1 : 0;
+        level += t.terrain.ground.dem[i] == t.terrain.ground.dem[middle] ? 1 : 0;
     }
     EXPECT_GT(level, 100); // of 13 x 16 cells
     Made const dry = made(lines + path + "[surface]\nlakes = \"dry.geojson\"\n", files.folder());
     expect_lawful(dry);
-    EXPECT_EQ(dry.terrain.lakes, 0);
+    EXPECT_EQ(dry.terrain.bed.lakes, 0);
     EXPECT_EQ(count(findings_of(dry), "lake_left_out"), 1);
     Made const ponds = made(lines + path + "[surface]\nlakes = \"ponds.geojson\"\n", files.folder());
-    EXPECT_EQ(ponds.terrain.lakes, 1);
+    EXPECT_EQ(ponds.terrain.bed.lakes, 1);
     EXPECT_EQ(count(findings_of(ponds), "lake_left_out"), 1); // a pond between cells' centres and one off the grid
-    EXPECT_TRUE(std::ranges::equal(ponds.terrain.surface->dem.values(), t.terrain.surface->dem.values()));
+    EXPECT_TRUE(std::ranges::equal(ponds.terrain.ground.dem.values(), t.terrain.ground.dem.values()));
 }
 
 namespace {
@@ -196,12 +196,12 @@ namespace {
 /// The levels at which the cells of a polygon's inner part stand, and whether they are lake.
 std::set<float> levels_within(Made const& t, Vec2 from, Vec2 to) {
     std::set<float> levels;
-    Mask const lakes = lake_cells(t.terrain.channels);
+    Mask const lakes = lake_cells(t.terrain.bed.channels);
     for (std::int64_t i = 0; i < t.terrain.grid.cells(); ++i) {
         Vec2 const at = t.terrain.grid.centre(t.terrain.grid.at(i));
         if (at.x > from.x && at.x < to.x && at.y > from.y && at.y < to.y) {
             EXPECT_EQ(lakes[i], 1) << at.x << " " << at.y;
-            levels.insert(t.terrain.surface->dem[i]);
+            levels.insert(t.terrain.ground.dem[i]);
         }
     }
     return levels;
@@ -237,18 +237,18 @@ TEST(LandInEquilibrium, LakesHaveTheLevelsOfTheirPolygons) {
         expect_lawful(t);
         EXPECT_EQ(levels_within(t, {501910, 5001260}, {502190, 5001640}), std::set{static_cast<float>(level)});
         EXPECT_EQ(count(findings_of(t), "lake_level"), 0);
-        EXPECT_EQ(t.terrain.surface->dem[t.terrain.channels.cell[0]], 0.0F) << "the outlet";
-        for (std::size_t n = 0; n < t.terrain.channels.cell.size(); ++n) {
-            std::int64_t const r = t.terrain.channels.receiver[n];
-            EXPECT_TRUE(r < 0 || t.terrain.channels.level[n] != 0 ||
-                        t.terrain.surface->dem[t.terrain.channels.cell[n]] >
-                            t.terrain.surface->dem[t.terrain.channels.cell[static_cast<std::size_t>(r)]]);
+        EXPECT_EQ(t.terrain.ground.dem[t.terrain.bed.channels.cell[0]], 0.0F) << "the outlet";
+        for (std::size_t n = 0; n < t.terrain.bed.channels.cell.size(); ++n) {
+            std::int64_t const r = t.terrain.bed.channels.receiver[n];
+            EXPECT_TRUE(r < 0 || t.terrain.bed.channels.level[n] != 0 ||
+                        t.terrain.ground.dem[t.terrain.bed.channels.cell[n]] >
+                            t.terrain.ground.dem[t.terrain.bed.channels.cell[static_cast<std::size_t>(r)]]);
         }
     }
     files.write("levels.geojson", geojson(lake("501850", "5001200", "502250", "5001700", "\"level\":null")));
     Made const free = made(keys, files.folder());
     Made const without = made(lines + path + "[surface]\nlakes = \"lakes.geojson\"\n", files.folder());
-    EXPECT_TRUE(std::ranges::equal(free.terrain.surface->dem.values(), without.terrain.surface->dem.values()));
+    EXPECT_TRUE(std::ranges::equal(free.terrain.ground.dem.values(), without.terrain.ground.dem.values()));
     files.write("levels.geojson", geojson(lake("501850", "5001200", "502250", "5001700", "\"level\":1e9")));
     test::expect_faults({{keys, "levels.geojson\": feature 0 has the level 1000000000 m"}}, files.folder());
 }
@@ -320,22 +320,22 @@ TEST(LandInEquilibrium, PolygonsMaskLand) {
                                     polygon("[2.9,45],[3.045,45],[3.045,45.3],[2.9,45.3],[2.9,45]") + "]}");
     files.write("east.geojson", geojson(lake("501200", "4990000", "510000", "5010000")));
     Made const t = made(lines + path + "[surface]\nmask = \"west.geojson\"\n", files.folder());
-    EXPECT_EQ(t.terrain.equilibrium->edge, surface::Edge::coast);
-    Raster<float> const& dem = t.terrain.surface->dem;
+    EXPECT_EQ(t.terrain.ground.equilibrium()->edge, surface::Edge::coast);
+    Raster<float> const& dem = t.terrain.ground.dem;
     Made const dilated =
         made(lines + path + "[surface]\nmethod = \"dilate\"\nmask = \"west.geojson\"\n", files.folder());
     // 0.045 degrees of longitude are 3536 m there.
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
         double const x = dem.grid().centre(dem.grid().at(i)).x;
         if (std::fabs(x - 503536.0) > 10.0) {
-            EXPECT_EQ(std::isnan(dem[i]), x > 503536.0 && std::isnan(t.terrain.valley.z[i]));
-            EXPECT_EQ(std::isnan(dilated.terrain.surface->dem[i]), x > 503536.0);
+            EXPECT_EQ(std::isnan(dem[i]), x > 503536.0 && std::isnan(t.terrain.bed.valley.z[i]));
+            EXPECT_EQ(std::isnan(dilated.terrain.ground.dem[i]), x > 503536.0);
         }
     }
     // Rivers outside are land in equilibrium; dilation refuses them, as with rasters.
     Made const kept = made(lines + path + "[surface]\nmask = \"east.geojson\"\n", files.folder());
     Cell const source = kept.terrain.grid.cell_of({501000, 5003000});
-    EXPECT_FALSE(std::isnan(kept.terrain.surface->dem[source]));
+    EXPECT_FALSE(std::isnan(kept.terrain.ground.dem[source]));
     test::expect_faults(
         {{lines + path + "[surface]\nmethod = \"dilate\"\nmask = \"east.geojson\"\n",
           "surface.mask = \"east.geojson\" leaves out cell ("},
@@ -379,7 +379,7 @@ TEST(LandInEquilibrium, RiversThatEndInsideAreCarriedOrSinks) {
     EXPECT_EQ(count(findings_of(carried), "carried_outlet"), 1);
     Made const sink = made(lines + "inland = \"sink\"\n" + inland + "[surface]\ndrain = \"none\"\n", files.folder());
     EXPECT_EQ(count(findings_of(sink), "carried_outlet"), 0);
-    flow::FlowField const drainage = flow::route(sink.terrain.surface->dem);
+    flow::FlowField const drainage = flow::route(sink.terrain.ground.dem);
     EXPECT_EQ(drainage.depressions.size(), 1U);
     Made const drained = made(lines + "inland = \"sink\"\n" + inland + "[surface]\n", files.folder());
     for (Check const& c : drained.assessment.checks) {
@@ -425,9 +425,10 @@ TEST(LandInEquilibrium, HeightsOfAFileAreKeptAndTheLandRisesToThem) {
         EXPECT_TRUE(check_of(t, "walled_cells").ok) << check_of(t, "walled_cells").value;
         EXPECT_LT(t.assessment.given_heights->most_off_m, 20.0); // the river falls by so much within a cell
         EXPECT_EQ(t.assessment.given_heights->missed, 0);
-        ASSERT_TRUE(t.terrain.equilibrium->rebuilt);
-        EXPECT_GT(t.terrain.equilibrium->rebuilt->river_spacing_m, 300.0);
-        EXPECT_EQ(t.terrain.equilibrium->edge, surface::Edge::closed);
+        auto const* const rebuilt = std::get_if<Rebuilt>(&t.terrain.ground.how);
+        ASSERT_NE(rebuilt, nullptr);
+        EXPECT_GT(rebuilt->river_spacing_m, 300.0);
+        EXPECT_EQ(t.terrain.ground.equilibrium()->edge, surface::Edge::closed);
     }
     std::string said;
     thalweg::Run run;
@@ -449,7 +450,8 @@ TEST(LandInEquilibrium, HeightsOfAFileAreKeptAndTheLandRisesToThem) {
     std::string const falling = "[network.lines]\npath = \"falling.geojson\"\n[surface]\n";
     EXPECT_FALSE(made(lines + "heights = \"graded\"\n" + falling, files.folder()).assessment.given_heights);
     EXPECT_FALSE(made(lines + "heights = \"ends\"\n" + falling, files.folder()).assessment.given_heights);
-    EXPECT_FALSE(made(lines + "heights = \"fixed\"\n" + falling, files.folder()).terrain.equilibrium->rebuilt);
+    EXPECT_FALSE(std::holds_alternative<Rebuilt>(
+        made(lines + "heights = \"fixed\"\n" + falling, files.folder()).terrain.ground.how));
 }
 
 TEST(LandInEquilibrium, HeightsThatRiseByNoiseAreLoweredAndTold) {
@@ -484,12 +486,12 @@ TEST(LandInEquilibrium, SideValleysAreCheckedLikeTheRest) {
     Files const files;
     Made const t = made(lines + "fill_space = true\nsupport = 60\n" + path + equilibrium, files.folder());
     expect_lawful(t);
-    EXPECT_GT(t.terrain.side_valleys.grown, 30);
+    EXPECT_GT(t.terrain.bed.grown, 30);
     std::int64_t grown = 0;
     for (ArcId arc = 0; arc < t.terrain.rivers.network.planform.arc_count(); ++arc) {
         grown += t.terrain.rivers.network.planform.arc(arc).is_input ? 0 : 1;
     }
-    EXPECT_EQ(grown, t.terrain.side_valleys.grown);
+    EXPECT_EQ(grown, t.terrain.bed.grown);
     EXPECT_EQ(t.assessment.relief->perched, 0);
 }
 
@@ -547,9 +549,9 @@ TEST(LandInEquilibrium, OtherCellsAreTheSameLand) {
         constexpr double support_m2 = 180'000.0;
         recipe.grid.cell_m = cell_m;
         Made const land = make::make(recipe);
-        Raster<float> const& dem = land.terrain.surface->dem;
+        Raster<float> const& dem = land.terrain.ground.dem;
         measure::Relief const relief =
-            measure::relief(dem, *land.terrain.drainage, measure::statistics(dem),
+            measure::relief(dem, land.terrain.water.drainage, measure::statistics(dem),
                             {.support_cells = static_cast<std::int64_t>(support_m2 / (cell_m * cell_m))});
         of_cells.push_back({-relief.slope_area->exponent, relief.drainage_density, relief.slopes.mean_deg});
     }
@@ -581,7 +583,7 @@ TEST(LandInEquilibrium, AForestTilesALargeMap) {
         outlets.push_back(t.terrain.grid.index(t.terrain.grid.cell_of(t.terrain.rivers.network.planform.node(n).at)));
     }
     EXPECT_GT(outlets.size(), 50U);
-    flow::FlowField const drainage = flow::route(t.terrain.surface->dem);
+    flow::FlowField const drainage = flow::route(t.terrain.ground.dem);
     std::int64_t drained = 0;
     for (std::int64_t i = 0; i < t.terrain.grid.cells(); ++i) {
         if (!goes_on(drainage.direction[i])) {

@@ -44,10 +44,10 @@ std::string said(std::string const& increment) {
 void expect_valley_kept(Made const& t) {
     std::int64_t valley = 0;
     for (std::int64_t i = 0; i < t.terrain.grid.cells(); ++i) {
-        ASSERT_TRUE(std::isfinite(t.terrain.surface->dem[i]));
-        if (!std::isnan(t.terrain.valley.z[i])) {
+        ASSERT_TRUE(std::isfinite(t.terrain.ground.dem[i]));
+        if (!std::isnan(t.terrain.bed.valley.z[i])) {
             ++valley;
-            ASSERT_EQ(t.terrain.valley.z[i], t.terrain.surface->dem[i]);
+            ASSERT_EQ(t.terrain.bed.valley.z[i], t.terrain.ground.dem[i]);
         }
     }
     EXPECT_GT(valley, 100);
@@ -96,7 +96,7 @@ std::string const from_points =
 TEST(Land, OverTheTrianglesOfRivers) {
     Made const t = made(rivers + "[surface]\nmethod = \"tin\"\n");
     expect_valley_kept(t);
-    ASSERT_TRUE(t.terrain.tin);
+    ASSERT_TRUE(!t.terrain.ground.tin.vertices.empty());
     double low = t.terrain.rivers.network.node_z[0];
     double high = low;
     for (double const z : t.terrain.rivers.network.node_z) {
@@ -107,7 +107,7 @@ TEST(Land, OverTheTrianglesOfRivers) {
     EXPECT_LE(t.assessment.statistics->max.z, high + 1e-3);
     for (ArcId arc = 0; arc < t.terrain.rivers.network.planform.arc_count(); ++arc) {
         for (Vec2 const p : t.terrain.rivers.network.planform.arc(arc).line) {
-            EXPECT_TRUE(std::any_of(t.terrain.tin->vertices.begin(), t.terrain.tin->vertices.end(),
+            EXPECT_TRUE(std::any_of(t.terrain.ground.tin.vertices.begin(), t.terrain.ground.tin.vertices.end(),
                                     [&](Vec3 const& v) { return v.x == p.x && v.y == p.y; }));
         }
     }
@@ -120,17 +120,17 @@ TEST(Land, ABaseOfTrianglesTakesTheScarpsAway) {
         made(rivers + "[surface]\nmethod = \"dilate\"\nmetric = \"euclid\"\nrelief = 300\nbase = \"tin\"\n");
     expect_valley_kept(paper);
     expect_valley_kept(smooth);
-    EXPECT_FALSE(paper.terrain.tin);
-    EXPECT_LT(greatest_step(smooth.terrain.surface->dem), 0.5 * greatest_step(paper.terrain.surface->dem));
+    EXPECT_FALSE(!paper.terrain.ground.tin.vertices.empty());
+    EXPECT_LT(greatest_step(smooth.terrain.ground.dem), 0.5 * greatest_step(paper.terrain.ground.dem));
     Made const harmonic =
         made(rivers + "[surface]\nmethod = \"dilate\"\nmetric = \"euclid\"\nrelief = 300\n"); // the default
     expect_valley_kept(harmonic);
-    EXPECT_FALSE(harmonic.terrain.tin);
-    EXPECT_LT(greatest_step(harmonic.terrain.surface->dem), 0.5 * greatest_step(paper.terrain.surface->dem));
-    Raster<float> const base = surface::rasterise_tin(*smooth.terrain.tin, smooth.terrain.grid);
+    EXPECT_FALSE(!harmonic.terrain.ground.tin.vertices.empty());
+    EXPECT_LT(greatest_step(harmonic.terrain.ground.dem), 0.5 * greatest_step(paper.terrain.ground.dem));
+    Raster<float> const base = surface::rasterise_tin(smooth.terrain.ground.tin, smooth.terrain.grid);
     for (std::int64_t i = 0; i < smooth.terrain.grid.cells(); ++i) {
-        EXPECT_TRUE(std::isnan(base[i]) || !std::isnan(smooth.terrain.valley.z[i]) ||
-                    smooth.terrain.surface->dem[i] > base[i] - 1e-3F);
+        EXPECT_TRUE(std::isnan(base[i]) || !std::isnan(smooth.terrain.bed.valley.z[i]) ||
+                    smooth.terrain.ground.dem[i] > base[i] - 1e-3F);
     }
 }
 
@@ -173,9 +173,10 @@ TEST(Land, RandomPointsBetweenTheRivers) {
         Made const with = made(rivers + skeleton + "[surface]\n" + how);
         expect_valley_kept(with);
         ASSERT_TRUE(with.assessment.certificate) << how;
-        EXPECT_TRUE(test::same_bits(plain.terrain.valley.z, with.terrain.valley.z)) << how; // rivers ignore points
-        if (plain.terrain.tin) {
-            EXPECT_EQ(with.terrain.tin->vertices.size(), plain.terrain.tin->vertices.size() + 120) << how;
+        EXPECT_TRUE(test::same_bits(plain.terrain.bed.valley.z, with.terrain.bed.valley.z))
+            << how; // rivers ignore points
+        if (!plain.terrain.ground.tin.vertices.empty()) {
+            EXPECT_EQ(with.terrain.ground.tin.vertices.size(), plain.terrain.ground.tin.vertices.size() + 120) << how;
         }
         EXPECT_GT(with.assessment.statistics->mean, plain.assessment.statistics->mean + 1.0) << how;
     }
@@ -194,7 +195,7 @@ TEST(Land, DetailLeavesTheRiversAlone) {
     double square = 0.0;
     for (std::int64_t i = 0; i < smooth.terrain.grid.cells(); ++i) {
         double const off =
-            static_cast<double>(rough.terrain.surface->dem[i]) - static_cast<double>(smooth.terrain.surface->dem[i]);
+            static_cast<double>(rough.terrain.ground.dem[i]) - static_cast<double>(smooth.terrain.ground.dem[i]);
         square += off * off / static_cast<double>(smooth.terrain.grid.cells());
     }
     EXPECT_GT(square, 1.0);
@@ -205,8 +206,8 @@ TEST(Land, DetailLeavesTheRiversAlone) {
 TEST(Land, TheSkeletonsTrianglesAloneChangeNothing) {
     Made const plain = made(rivers + "[surface]\n");
     Made const with = made(rivers + "[skeleton]\ntin = true\n[surface]\n");
-    EXPECT_TRUE(with.terrain.tin);
-    EXPECT_TRUE(test::same_bits(plain.terrain.surface->dem, with.terrain.surface->dem));
+    EXPECT_TRUE(!with.terrain.ground.tin.vertices.empty());
+    EXPECT_TRUE(test::same_bits(plain.terrain.ground.dem, with.terrain.ground.dem));
 }
 
 TEST(Land, ATurnedClusterIsFramedWhole) {
@@ -253,7 +254,7 @@ TEST(Land, StatisticsWithGivenPointsKept) {
         ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf", &x, &y, &z), 3);
         auto const i = t.terrain.grid.index(t.terrain.grid.cell_of({x, y}));
         if (!seen[static_cast<std::size_t>(i)]) { // the first of a cell counts
-            EXPECT_NEAR(static_cast<double>(t.terrain.surface->dem[i]), z, 1e-3);
+            EXPECT_NEAR(static_cast<double>(t.terrain.ground.dem[i]), z, 1e-3);
         }
         seen[static_cast<std::size_t>(i)] = true;
     }
@@ -270,15 +271,13 @@ TEST(Land, EveryPriorMeetsTable4) {
                             "[detail]\nlevels = 3\n"}) {
         Made const t = made(table + how);
         EXPECT_TRUE(t.assessment.passed()) << how;
-        EXPECT_LE(t.terrain.fine_forms_cells, 1.0) << how;
+        EXPECT_LE(t.terrain.ground.matched->fine_forms_cells, 1.0) << how;
         EXPECT_EQ(t.assessment.statistics->max.z, 1038.0);
         EXPECT_EQ(t.assessment.statistics->max.cell, (Cell{91, 1}));
         EXPECT_EQ(t.assessment.statistics->min.z, 276.0);
         EXPECT_EQ(t.assessment.statistics->min.cell, (Cell{129, 26}));
-        EXPECT_EQ(std::count(t.terrain.surface->dem.values().begin(), t.terrain.surface->dem.values().end(), 1038.0F),
-                  1);
-        EXPECT_EQ(std::count(t.terrain.surface->dem.values().begin(), t.terrain.surface->dem.values().end(), 276.0F),
-                  1);
+        EXPECT_EQ(std::count(t.terrain.ground.dem.values().begin(), t.terrain.ground.dem.values().end(), 1038.0F), 1);
+        EXPECT_EQ(std::count(t.terrain.ground.dem.values().begin(), t.terrain.ground.dem.values().end(), 276.0F), 1);
         EXPECT_NEAR(t.assessment.statistics->std, 131.6, 1.3);
         EXPECT_NEAR(t.assessment.statistics->lx.cells, 20.68, 0.2);
         EXPECT_NEAR(t.assessment.statistics->ly.cells, 39.74, 0.4);

@@ -128,8 +128,8 @@ TEST(Laws, TheDemsRiversAreAsLongAsTheNetwork) {
     DemLaws const& dem = *terrain.assessment.laws.dem;
     EXPECT_TRUE(dem.as_dense);
     EXPECT_GE(dem.laws.drainage_density_m, terrain.assessment.laws.network->drainage_density_m);
-    flow::FlowField const drainage = flow::route(terrain.terrain.surface->dem);
-    auto const sparser = laws_of_dem(terrain.terrain.surface->dem, drainage, flow::flow_lengths(drainage),
+    flow::FlowField const drainage = flow::route(terrain.terrain.ground.dem);
+    auto const sparser = laws_of_dem(terrain.terrain.ground.dem, drainage, flow::flow_lengths(drainage),
                                      {.support_cells = dem.support_cells + 1});
     EXPECT_LT(sparser.laws.drainage_density_m, terrain.assessment.laws.network->drainage_density_m);
     EXPECT_FALSE(sparser.as_dense);

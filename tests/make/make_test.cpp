@@ -38,11 +38,11 @@ void expect_rivers_serve_both(std::string const& one, std::string const& two) {
         Plan const plan = resolve(recipe);
         Terrain const terrain = make_terrain(plan, rivers);
         Assessment const assessment = assess(plan, rivers, terrain);
-        EXPECT_TRUE(test::same_bits(terrain.surface->dem, whole.terrain.surface->dem));
+        EXPECT_TRUE(test::same_bits(terrain.ground.dem, whole.terrain.ground.dem));
         EXPECT_EQ(terrain.rivers.network.arc_z, whole.terrain.rivers.network.arc_z);
         EXPECT_EQ(write_recipe(recipe_of(plan, terrain)), write_recipe(whole.recipe));
         EXPECT_EQ(assessment.passed(), whole.assessment.passed());
-        EXPECT_EQ(terrain.areas.ds_area_m2, whole.terrain.areas.ds_area_m2);
+        EXPECT_EQ(terrain.water.areas.ds_area_m2, whole.terrain.water.areas.ds_area_m2);
     }
 }
 
@@ -56,8 +56,8 @@ TEST(Make, RiversServeTwoTerrains) {
 
 TEST(Make, RiversAloneHaveNoTerrain) {
     Made const made = make::make(recipe_of_text(rivers_of));
-    EXPECT_FALSE(made.terrain.surface);
-    EXPECT_FALSE(made.terrain.drainage);
+    EXPECT_FALSE(made.terrain.has_surface());
+    EXPECT_FALSE(made.terrain.has_surface());
     EXPECT_FALSE(made.assessment.given);
     EXPECT_GT(made.terrain.rivers.network.planform.arc_count(), 0U);
     EXPECT_TRUE(made.assessment.passed());
@@ -68,7 +68,7 @@ TEST(Make, LandAloneHasNoRivers) {
         make::make(recipe_of_text("[grid]\nwidth = 64\nheight = 48\n[statistics]\nmean = 100\nstd = 10\n"));
     EXPECT_EQ(made.planform.network.arc_count(), 0U);
     EXPECT_EQ(made.terrain.grid, made.plan.grid);
-    EXPECT_TRUE(made.terrain.drainage);
+    EXPECT_TRUE(made.terrain.has_surface());
 }
 
 // Each value has its own timings; together they are those of the run.
@@ -76,10 +76,10 @@ TEST(Make, TimingsAreThoseOfTheValues) {
     Made const made = make::make(recipe_of_text(rivers_of + "[surface]\n"));
     EXPECT_EQ(made.plan.timings_s.front().stage, "grow");
     EXPECT_EQ(made.planform.timings_s.front().stage, "embed");
-    EXPECT_EQ(made.terrain.timings_s.front().stage, "channels");
+    EXPECT_EQ(made.terrain.notes.timings_s.front().stage, "channels");
     EXPECT_EQ(made.assessment.timings_s.back().stage, "check");
     EXPECT_EQ(timings_of(made).size(), made.plan.timings_s.size() + made.planform.timings_s.size() +
-                                           made.terrain.timings_s.size() + made.assessment.timings_s.size());
+                                           made.terrain.notes.timings_s.size() + made.assessment.timings_s.size());
 }
 
 namespace {

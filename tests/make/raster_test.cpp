@@ -109,11 +109,11 @@ void expect_drained_by_rivers(Made const& t) {
     EXPECT_TRUE(t.assessment.passed()) << checks_json(t.assessment.checks);
     EXPECT_EQ(t.assessment.pits, 0);
     std::int64_t cells = 0;
-    for (std::int64_t i = 0; i < t.terrain.valley.z.cells(); ++i) {
-        if (!std::isnan(t.terrain.valley.z[i])) {
+    for (std::int64_t i = 0; i < t.terrain.bed.valley.z.cells(); ++i) {
+        if (!std::isnan(t.terrain.bed.valley.z[i])) {
             ++cells;
-            EXPECT_EQ(t.terrain.surface->dem[i], t.terrain.valley.z[i]);
-            EXPECT_LE(t.terrain.valley.z[i], t.plan.raster[i]);
+            EXPECT_EQ(t.terrain.ground.dem[i], t.terrain.bed.valley.z[i]);
+            EXPECT_LE(t.terrain.bed.valley.z[i], t.plan.raster[i]);
         }
     }
     EXPECT_GT(cells, 30);
@@ -128,9 +128,9 @@ void expect_drained_by_rivers(Made const& t) {
 TEST_F(Rasters, AreTheTerrainBitForBit) {
     for (std::string const name : {"hills.tif", "coast.tif"}) {
         Made const t = of(name);
-        expect_same_bits(t.terrain.surface->dem, file(name));
+        expect_same_bits(t.terrain.ground.dem, file(name));
         EXPECT_TRUE(t.assessment.passed());
-        EXPECT_FALSE(t.terrain.drained);
+        EXPECT_FALSE(t.terrain.water.is_conditioned);
         EXPECT_FALSE(has(said_, "resampled"));
         EXPECT_EQ(t.recipe.grid.cell_m, 30.0);
         EXPECT_EQ(t.recipe.grid.crs, "EPSG:32631");
@@ -144,11 +144,11 @@ TEST_F(Rasters, AWindowOfTheSameCellsIsCutOut) {
     Raster<float> const all = file("hills.tif");
     for (std::int64_t i = 0; i < t.terrain.grid.cells(); ++i) {
         Cell const c = t.terrain.grid.at(i);
-        EXPECT_EQ(t.terrain.surface->dem[i], (all[Cell{c.col + 3, c.row + 4}]));
+        EXPECT_EQ(t.terrain.ground.dem[i], (all[Cell{c.col + 3, c.row + 4}]));
     }
     EXPECT_FALSE(has(said_, "resampled"));
     Made const wider = of("hills.tif", "", "[grid]\nwidth = 42\nheight = 30\norigin = [499970, 5000000]\n");
-    EXPECT_EQ(without_data(wider.terrain.surface->dem), 2 * 30);
+    EXPECT_EQ(without_data(wider.terrain.ground.dem), 2 * 30);
     Made const rest = of("hills.tif", "", "[grid]\norigin = [500090, 4999880]\n");
     EXPECT_EQ(rest.terrain.grid.width, 37);
     EXPECT_EQ(rest.terrain.grid.height, 26);
@@ -167,11 +167,11 @@ TEST_F(Rasters, OtherCellsAreResampled) {
         EXPECT_EQ(t.terrain.grid.width, width) << grid;
         EXPECT_EQ(t.terrain.grid.height, height) << grid;
         EXPECT_TRUE(has(said_, "plane.tif is resampled from 40x30 cells of 30 in EPSG:32631 to ")) << grid;
-        EXPECT_EQ(without_data(t.terrain.surface->dem), 0) << grid;
+        EXPECT_EQ(without_data(t.terrain.ground.dem), 0) << grid;
         for (std::int64_t i = 0; i < t.terrain.grid.cells(); ++i) {
             Vec2 const p = t.terrain.grid.centre(t.terrain.grid.at(i));
             double const asked = plane(0, 0) + (p.x - 500015.0) / 60.0 + (4999985.0 - p.y) / 120.0;
-            ASSERT_NEAR(t.terrain.surface->dem[i], asked, 0.5) << grid; // beyond the outer centres it is level
+            ASSERT_NEAR(t.terrain.ground.dem[i], asked, 0.5) << grid; // beyond the outer centres it is level
         }
     }
 }
@@ -197,7 +197,7 @@ TEST_F(Rasters, AreDrainedWhereThatIsAskedFor) {
             Made const t = of(name, "drain = \"" + drain + "\"\n");
             EXPECT_EQ(t.assessment.pits, 0) << name << drain;
             EXPECT_TRUE(t.assessment.passed()) << name << drain;
-            EXPECT_EQ(without_data(t.terrain.surface->dem), without_data(file(name)));
+            EXPECT_EQ(without_data(t.terrain.ground.dem), without_data(file(name)));
         }
     }
 }
@@ -208,10 +208,10 @@ TEST_F(Rasters, RiversAreCutIntoThem) {
     EXPECT_EQ(t.recipe.network->heights, Heights::automatic);
     EXPECT_EQ(t.recipe.surface->drain, flow::Conditioning::carve);
     EXPECT_GT(std::ranges::min(t.terrain.rivers.network.node_z), 20.0) << "not the heights of the file";
-    EXPECT_GT(t.terrain.heights.lowered_cells, 0);
+    EXPECT_GT(t.terrain.bed.heights.lowered_cells, 0);
     Made const bare = of("hills.tif", "drain = \"none\"\n", lines());
     for (std::int64_t i = 0; i < bare.terrain.grid.cells(); ++i) {
-        EXPECT_TRUE(!std::isnan(bare.terrain.valley.z[i]) || bare.terrain.surface->dem[i] == bare.plan.raster[i]);
+        EXPECT_TRUE(!std::isnan(bare.terrain.bed.valley.z[i]) || bare.terrain.ground.dem[i] == bare.plan.raster[i]);
     }
     Made const of_file = of("hills.tif", "", lines("heights = \"file\"\n"));
     EXPECT_LE(std::ranges::max(of_file.terrain.rivers.network.node_z), 9.0);
@@ -222,7 +222,7 @@ TEST_F(Rasters, GrownRiversAreLaidOnThem) {
     expect_drained_by_rivers(of("hills.tif", "", forest));
     Made const t = of("coast.tif", "", forest);
     expect_drained_by_rivers(t);
-    EXPECT_EQ(without_data(t.terrain.surface->dem), without_data(file("coast.tif"))) << "the sea stays sea";
+    EXPECT_EQ(without_data(t.terrain.ground.dem), without_data(file("coast.tif"))) << "the sea stays sea";
     expect_drained_by_rivers(of("hills.tif", "", "[network]\nprune = 3\n[network.dla]\nparticles = 400\n"));
     expect_drained_by_rivers(of("hills.tif", "", "[network]\nsource = \"tokunaga\"\n[network.tokunaga]\norder = 2\n"));
     Made const bends = of("hills.tif", "", "[network]\nsource = \"forest\"\nprune = 4\nmeander = 0.5\n");
@@ -232,17 +232,17 @@ TEST_F(Rasters, GrownRiversAreLaidOnThem) {
 TEST_F(Rasters, TakeMasksPatchesAndDetail) {
     write_ascii_grid(folder_ / "mask.asc", {40, 30, 30, 500000, 4999100}, [](int c, int) { return c < 30 ? 1 : 0; });
     write_ascii_grid(folder_ / "patch.asc", {10, 10, 30, 500300, 4999400}, [](int c, int r) { return 5 * c * r; });
-    EXPECT_EQ(without_data(of("hills.tif", "mask = \"mask.asc\"\n").terrain.surface->dem), 10 * 30);
+    EXPECT_EQ(without_data(of("hills.tif", "mask = \"mask.asc\"\n").terrain.ground.dem), 10 * 30);
     Made const patched = of("hills.tif", "[[patch]]\nsource = \"patch.asc\"\n");
-    EXPECT_EQ(patched.terrain.patches.at(0).cells, 8 * 8) << "but for its border";
+    EXPECT_EQ(patched.terrain.ground.patches.at(0).cells, 8 * 8) << "but for its border";
     for (std::string const name : {"hills.tif", "coast.tif"}) {
         Made const fine = of(name, "[detail]\nlevels = 2\n");
         Raster<float> const given = file(name);
-        EXPECT_EQ(without_data(fine.terrain.surface->dem), without_data(given));
+        EXPECT_EQ(without_data(fine.terrain.ground.dem), without_data(given));
         std::int64_t other = 0;
         for (std::int64_t i = 0; i < given.cells(); ++i) {
             Cell const c = given.grid().at(i);
-            bool const is_same = std::isnan(given[i]) || fine.terrain.surface->dem[i] == given[i];
+            bool const is_same = std::isnan(given[i]) || fine.terrain.ground.dem[i] == given[i];
             EXPECT_TRUE(is_same || c.col % 4 != 0 || c.row % 4 != 0) << "every fourth cell stays";
             other += is_same ? 0 : 1;
         }
@@ -273,7 +273,7 @@ TEST_F(Rasters, ARecipeSettlesToTheSameTerrain) {
         Recipe recipe = read_recipe(write_recipe(first.recipe), "again.toml");
         recipe.folder = folder();
         Made const again = make::make(recipe);
-        expect_same_bits(first.terrain.surface->dem, again.terrain.surface->dem);
+        expect_same_bits(first.terrain.ground.dem, again.terrain.ground.dem);
         EXPECT_EQ(write_recipe(again.recipe), write_recipe(first.recipe));
     }
 }
@@ -281,7 +281,7 @@ TEST_F(Rasters, ARecipeSettlesToTheSameTerrain) {
 TEST_F(Rasters, AFileIsARecipe) {
     Recipe const recipe = recipe_from(folder_ / "hills.tif");
     EXPECT_EQ(recipe.output.title, "hills");
-    expect_same_bits(make::make(recipe).terrain.surface->dem, file("hills.tif"));
+    expect_same_bits(make::make(recipe).terrain.ground.dem, file("hills.tif"));
     Recipe const settled = settled_recipe(recipe);
     EXPECT_EQ(settled.grid.width, 40);
     EXPECT_EQ(settled.grid.cell_m, 30.0);
@@ -326,7 +326,7 @@ TEST_F(Rasters, WhatDoesNotFitIsRefusedInWords) {
     EXPECT_TRUE(has(fault_of(source("hole.tif") + lines()), "has no height at", "grid.clip = true"));
     Made const t = of("hole.tif", "", "[grid]\nclip = true\n" + lines());
     expect_drained_by_rivers(t);
-    EXPECT_EQ(without_data(t.terrain.surface->dem), 14);
+    EXPECT_EQ(without_data(t.terrain.ground.dem), 14);
     EXPECT_EQ(t.terrain.rivers.network.planform.outlets().size(), 2U);
 }
 

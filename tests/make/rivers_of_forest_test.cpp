@@ -62,10 +62,10 @@ private:
 void expect_lawful(Made const& t) {
     EXPECT_TRUE(t.assessment.passed());
     auto const is_land = [&](Cell c) {
-        return t.terrain.grid.contains(c) && (t.terrain.land.values().empty() || t.terrain.land[c] != 0);
+        return t.terrain.grid.contains(c) && (t.terrain.ground.land.values().empty() || t.terrain.ground.land[c] != 0);
     };
     for (std::int64_t i = 0; i < t.terrain.grid.cells(); ++i) {
-        ASSERT_EQ(std::isfinite(t.terrain.surface->dem[i]), is_land(t.terrain.grid.at(i))) << i;
+        ASSERT_EQ(std::isfinite(t.terrain.ground.dem[i]), is_land(t.terrain.grid.at(i))) << i;
     }
     EXPECT_FALSE(t.terrain.rivers.network.planform.outlets().empty());
     for (NodeId const n : t.terrain.rivers.network.planform.outlets()) {
@@ -99,7 +99,7 @@ TEST(PlanForest, KeysThatDoNotGoTogetherAreNamed) {
 TEST(PlanForest, TheWholeGridDrainsOverItsBorder) {
     Made const t = made(small_grid + forest + dilated);
     expect_lawful(t);
-    EXPECT_TRUE(t.terrain.land.values().empty());
+    EXPECT_TRUE(t.terrain.ground.land.values().empty());
     EXPECT_TRUE(t.planform.statistics.full);
     EXPECT_GT(t.terrain.rivers.network.planform.outlets().size(), 5U);
 }
@@ -109,7 +109,7 @@ TEST(PlanForest, AnIslandIsDiffusedAndTriangulatedToo) {
         Made const t = made(small_grid + forest + "[network.forest]\nshape = \"island\"\n[surface]\nmethod = \"" +
                             std::string(method) + "\"\n");
         expect_lawful(t);
-        EXPECT_EQ(t.terrain.land[0], 0) << method;
+        EXPECT_EQ(t.terrain.ground.land[0], 0) << method;
     }
 }
 
@@ -129,9 +129,9 @@ TEST(PlanForest, ARegionsPolygonsAreTheLandAndFrameTheGrid) {
     expect_lawful(t);
     EXPECT_EQ(t.terrain.grid.crs, "EPSG:32631");
     // The lagoon is sea, the islet is land.
-    EXPECT_EQ(t.terrain.land[t.terrain.grid.cell_of({502500, 5002000})], 0);
-    EXPECT_EQ(t.terrain.land[t.terrain.grid.cell_of({505300, 5000300})], 1);
-    auto const land = static_cast<double>(std::ranges::count(t.terrain.land.values(), std::uint8_t{1}));
+    EXPECT_EQ(t.terrain.ground.land[t.terrain.grid.cell_of({502500, 5002000})], 0);
+    EXPECT_EQ(t.terrain.ground.land[t.terrain.grid.cell_of({505300, 5000300})], 1);
+    auto const land = static_cast<double>(std::ranges::count(t.terrain.ground.land.values(), std::uint8_t{1}));
     EXPECT_NEAR(land * 900.0, 4500.0 * 3600.0 - 1000.0 * 1000.0 + 600.0 * 600.0, 40.0 * 900.0);
     EXPECT_EQ(t.terrain.grid.width, 206); // 5600 m and 5 % on both sides
 }
@@ -169,7 +169,7 @@ TEST(PlanForest, LinesAndPolygonsMarkTheCoastWithOutlets) {
     EXPECT_EQ(on_line, 4);
     Made const lake = made(region + "outlets = \"lake.geojson\"\n" + dilated, files.folder());
     expect_lawful(lake);
-    EXPECT_EQ(lake.terrain.land[lake.terrain.grid.cell_of({501200, 5001200})], 0);
+    EXPECT_EQ(lake.terrain.ground.land[lake.terrain.grid.cell_of({501200, 5001200})], 0);
 }
 
 TEST(PlanForest, OutletsThatArePrunedAwayAreReported) {

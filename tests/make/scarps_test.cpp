@@ -61,14 +61,14 @@ TEST(Scarps, TheHarmonicBaseLeavesNone) {
     Made const after = on(Base::harmonic, papers_slope);
     ASSERT_EQ(after.terrain.grid.width, 1024);
     ASSERT_EQ(after.terrain.grid.height, 1024);
-    for (std::int64_t i = 0; i < after.terrain.valley.z.cells(); ++i) {
-        if (float const z = after.terrain.valley.z[i]; !std::isnan(z)) {
-            ASSERT_EQ(z, after.terrain.surface->dem[i]);
-            ASSERT_EQ(z, before.terrain.surface->dem[i]);
+    for (std::int64_t i = 0; i < after.terrain.bed.valley.z.cells(); ++i) {
+        if (float const z = after.terrain.bed.valley.z[i]; !std::isnan(z)) {
+            ASSERT_EQ(z, after.terrain.ground.dem[i]);
+            ASSERT_EQ(z, before.terrain.ground.dem[i]);
         }
     }
-    Scarps const paper = scarps_of(before.terrain.surface->dem);
-    Scarps const harmonic = scarps_of(after.terrain.surface->dem);
+    Scarps const paper = scarps_of(before.terrain.ground.dem);
+    Scarps const harmonic = scarps_of(after.terrain.ground.dem);
     EXPECT_GT(paper.share, 0.01);
     EXPECT_LE(harmonic.share, 0.0002);
     EXPECT_LE(harmonic.greatest, 0.15 * paper.greatest);

@@ -322,8 +322,8 @@ std::string digest(Made const& t) {
         hash.add_all(t.terrain.rivers.network.arc_z[a]);
     }
     hash.add_all(t.terrain.rivers.types.braided);
-    if (t.terrain.surface) {
-        hash.add_all(t.terrain.surface->dem.values());
+    if (t.terrain.has_surface()) {
+        hash.add_all(t.terrain.ground.dem.values());
     }
     for (Check const& check : t.assessment.checks) {
         hash.add(check.limit);

@@ -38,7 +38,8 @@ TEST(Recipes010, RunAndGiveTheirOldTerrain) {
             bool const crowded = name == "tin_rivers" && c.name == "trace_f_same_cell" && c.value > 0.975;
             EXPECT_TRUE(c.ok || crowded) << name << " " << c.name << " " << c.value;
         }
-        text += fmt::format("{} {}\n", name, hash_of(t.terrain.surface ? t.terrain.surface->dem : t.terrain.valley.z));
+        text += fmt::format("{} {}\n", name,
+                            hash_of(t.terrain.has_surface() ? t.terrain.ground.dem : t.terrain.bed.valley.z));
     }
     expect_golden("recipes_0_1_0/hashes.txt", text); // made of dem.tif as 0.1.0 wrote it; a network alone: its valley
 }

@@ -44,13 +44,13 @@ TEST(Landmarks, SummitsAreTheMostProminentWithRoomBetweenThem) {
 TEST(Landmarks, TheSeaIsWhereCellsOfATerrainAreNotLand) {
     make::Terrain terrain;
     EXPECT_FALSE(report::sea_of(terrain).has_value());
-    terrain.land = Mask(Grid{3, 3, 1.0, 0.0, 3.0, ""}, 1);
+    terrain.ground.land = Mask(Grid{3, 3, 1.0, 0.0, 3.0, ""}, 1);
     ASSERT_TRUE(report::sea_of(terrain).has_value());
     EXPECT_FALSE(report::sea_of(terrain)->is_around);
-    terrain.land = Mask{};
-    terrain.equilibrium.emplace();
+    terrain.ground.land = Mask{};
+    terrain.ground.how = make::Equilibrium{};
     EXPECT_FALSE(report::sea_of(terrain).has_value());
-    terrain.equilibrium->edge = surface::Edge::coast;
+    terrain.ground.how = make::Equilibrium{.edge = surface::Edge::coast};
     EXPECT_TRUE(report::sea_of(terrain)->is_around);
 }
 

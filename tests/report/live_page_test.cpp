@@ -65,7 +65,7 @@ TEST(LiveScene, GrowsWithWhatIsKnown) {
     EXPECT_EQ(land["data"]["rivers"], measured["data"]["rivers"]);
     EXPECT_TRUE(land["data"]["checks"].empty());
 
-    json const rivers = scene_of(rivers_to_be(made.plan, made.planform));
+    json const rivers = scene_of(rivers_to_be(made.plan.recipe, made.planform));
     EXPECT_TRUE(rivers["data"]["heights"].is_null());
     EXPECT_EQ(rivers["data"]["rivers"]["arcs"]["strahler"], measured["data"]["rivers"]["arcs"]["strahler"]);
     EXPECT_EQ(rivers["lines"], measured["lines"]);
@@ -97,7 +97,7 @@ TEST(LiveHeights, AreTheDemOrMeansOfIt) {
 
 TEST(ClusterArms, AreThoseThatABranchMayBe) {
     Plan const plan = resolve(read_recipe(cluster, "r"));
-    ClusterArms const arms = *cluster_arms(plan, 64);
+    ClusterArms const arms = *cluster_arms(plan.recipe, 64);
     EXPECT_EQ(arms.chosen, "largest");
     EXPECT_LE(std::max(arms.width, arms.height), 64);
     auto const places = unpacked(arms.arms);
@@ -109,7 +109,7 @@ TEST(ClusterArms, AreThoseThatABranchMayBe) {
     }
     EXPECT_GT(counts[0], 0);
     EXPECT_GT(counts[1] + counts[2] + counts[3] + counts[4], counts[5]) << "most of it is in one of the arms";
-    EXPECT_FALSE(cluster_arms(resolve(default_recipe_on(64, 64)), 64)) << "a forest has none";
+    EXPECT_FALSE(cluster_arms(resolve(default_recipe_on(64, 64)).recipe, 64)) << "a forest has none";
 }
 
 } // namespace live_page_test

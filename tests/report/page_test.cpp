@@ -160,13 +160,13 @@ TEST(Page, HeightsAndLinesAreThoseOfTheTerrain) {
                                          h["min"], h["max"]);
     double const half = (h["max"].get<double>() - h["min"].get<double>()) / 65534.0 / 2.0;
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
-        EXPECT_NEAR(z[static_cast<std::size_t>(i)], made.terrain.surface->dem[i], half + 1e-9);
+        EXPECT_NEAR(z[static_cast<std::size_t>(i)], made.terrain.ground.dem[i], half + 1e-9);
     }
 
     auto const water =
         page_decoder::water(unpacked(page_decoder::part(html, "@@WATER@@")), z, grid.width, h["min"], h["max"]);
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
-        flow::Direction const d = made.terrain.drainage->direction[i];
+        flow::Direction const d = made.terrain.water.drainage.direction[i];
         EXPECT_EQ(water.direction[i], flow::goes_on(d) ? static_cast<int>(flow::index_of(d)) + 1 : 0) << i;
         EXPECT_FALSE(water.lake[i]);
     }
@@ -191,7 +191,7 @@ TEST(Page, HeightsAndLinesAreThoseOfTheTerrain) {
         EXPECT_TRUE(ds == 0 || lines[a].back() == lines[ds - 1].front()) << "rivers are not torn apart";
         EXPECT_NEAR(arcs["length"][a].get<double>(), rivers.planform.length_m(a), 0.001);
         EXPECT_NEAR(arcs["z_up"][a].get<double>(), rivers.arc_z[a].front(), 0.001);
-        EXPECT_EQ(arcs["ds_area"][a], made.terrain.areas.ds_area_m2[a]);
+        EXPECT_EQ(arcs["ds_area"][a], made.terrain.water.areas.ds_area_m2[a]);
         EXPECT_EQ(arcs["survives"][a].is_null(), std::isinf(rivers.planform.arc(a).persistence));
     }
 }
@@ -203,8 +203,8 @@ TEST(Page, RidgesFollowTheArcs) {
         Vec2 const p = terrain.terrain.grid.centre(c);
         return Vec3{p.x, p.y, z};
     };
-    terrain.terrain.ridges.lines = {{{at({3, 4}, 5.0), at({40, 9}, 6.0), at({41, 60}, 7.0)}, 1, 2},
-                                    {{at({41, 60}, 7.0), at({3, 4}, 5.0)}, 2, 3}};
+    terrain.terrain.ground.ridges.lines = {{{at({3, 4}, 5.0), at({40, 9}, 6.0), at({41, 60}, 7.0)}, 1, 2},
+                                           {{at({41, 60}, 7.0), at({3, 4}, 5.0)}, 2, 3}};
     std::string const html = page(terrain);
     json const data = data_of(html);
     EXPECT_EQ(data["ridges"], json::parse("{\"n\": [3, 2]}"));
@@ -272,8 +272,8 @@ TEST(Page, TheProfileIsThatOfTheLongestFlowPath) {
     }
     two.terrain.rivers.network = test::elevated(test::network_of(nodes, reaches), z);
     two.terrain.rivers.orders = network::order(two.terrain.rivers.network.planform);
-    two.terrain.areas.us_area_m2 = two.terrain.areas.ds_area_m2 = {2.0, 1.0, 1.0};
-    two.terrain.areas.node_m2 = {0.0, 2.0, 0.0, 1.0, 0.0, 1.0};
+    two.terrain.water.areas.us_area_m2 = two.terrain.water.areas.ds_area_m2 = {2.0, 1.0, 1.0};
+    two.terrain.water.areas.node_m2 = {0.0, 2.0, 0.0, 1.0, 0.0, 1.0};
     double const cells = std::floor(100.0 / two.terrain.grid.cell_m * 100.0 + 0.5) / 100.0;
     json const profiles = data_of(page(two))["profiles"];
     ASSERT_EQ(profiles.size(), 3U) << "of each basin one";
@@ -284,11 +284,11 @@ TEST(Page, TheProfileIsThatOfTheLongestFlowPath) {
 
 TEST(Page, LongListsAreCut) {
     Made terrain = small_terrain(Land::with);
-    terrain.terrain.surface->increments.assign(5000, 2.0);
+    terrain.terrain.ground.how = make::Dilated{.increments = std::vector<double>(5000, 2.0)};
     terrain.assessment.findings.assign(61, {"z_rising", 1, nowhere, 0.0, "arc 1 runs uphill"});
     terrain.plan.findings.clear();
     terrain.planform.findings.clear();
-    terrain.terrain.findings.clear();
+    terrain.terrain.notes.findings.clear();
     json const data = data_of(page(terrain));
     json const& points = data["curve"]["points"];
     EXPECT_EQ(points.size(), 600U);
@@ -374,7 +374,7 @@ TEST(Page, LargeGridsAreShownByMeansAndSaySo) {
     large.width = 3000;
     large.height = 2000;
     terrain.terrain.grid = large;
-    terrain.terrain.surface->dem = Raster<float>(large, 5.0F);
+    terrain.terrain.ground.dem = Raster<float>(large, 5.0F);
     json const data = data_of(page(terrain));
     EXPECT_EQ(data["heights"]["cells"], 2);
     EXPECT_EQ(data["heights"]["width"], 1500);

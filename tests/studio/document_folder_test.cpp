@@ -164,7 +164,7 @@ TEST_F(DocumentFolders, BeginWithADem) {
     EXPECT_EQ(recipe.grid.width, 30);
     EXPECT_EQ(recipe.grid.cell_m, 10.0);
     EXPECT_EQ(bytes_of(at("d/inputs/source/dem.asc")), bytes_of(at("dem.asc")));
-    Raster<float> const dem = make::make(recipe).terrain.surface->dem;
+    Raster<float> const dem = make::make(recipe).terrain.ground.dem;
     EXPECT_EQ((dem[Cell{7, 5}]), 7.0F + 1.5F);
     document.edit({"coarser", {SetKey{"grid.cell", "20"}, UnsetKey{"grid.width"}, UnsetKey{"grid.height"}}});
     EXPECT_EQ(recipe::resolve(document.document().recipe).grid->width, 15);

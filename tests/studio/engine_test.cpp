@@ -104,7 +104,7 @@ private:
                         std::unique_lock lock(guard_);
                         changed_.wait(lock, [&] { return stage != held_; });
                     },
-                .rivers = [this](Job const& job, recipe::Plan const&, make::Planform const&,
+                .rivers = [this](Job const& job, recipe::Recipe const&, make::Planform const&,
                                  Run const&) { note(job, [](Told& told) { ++told.rivers; }); },
                 .heights =
                     [this](Job const& job, Heights const& seen) {
@@ -142,15 +142,15 @@ Document edited(Document const& document, std::string const& key, std::string co
 
 /// Whether two terrains are the same in all that make writes of them.
 testing::AssertionResult are_same(make::Made const& a, make::Made const& b) {
-    if (a.terrain.surface.has_value() != b.terrain.surface.has_value() ||
-        (a.terrain.surface && !test::same_bits(a.terrain.surface->dem, b.terrain.surface->dem))) {
+    if (a.terrain.has_surface() != b.terrain.has_surface() ||
+        (a.terrain.has_surface() && !test::same_bits(a.terrain.ground.dem, b.terrain.ground.dem))) {
         return testing::AssertionFailure() << "other heights";
     }
     StreamNetwork const& one = a.terrain.rivers.network.planform;
     StreamNetwork const& other = b.terrain.rivers.network.planform;
     bool same = one.arc_count() == other.arc_count() &&
                 a.terrain.rivers.network.arc_z == b.terrain.rivers.network.arc_z &&
-                a.terrain.areas.ds_area_m2 == b.terrain.areas.ds_area_m2;
+                a.terrain.water.areas.ds_area_m2 == b.terrain.water.areas.ds_area_m2;
     for (ArcId arc = 0; same && arc < one.arc_count(); ++arc) {
         same = one.arc(arc).line == other.arc(arc).line && one.arc(arc).type == other.arc(arc).type;
     }
@@ -273,7 +273,7 @@ TEST(Engine, ShowsTheCoarseTerrainThatTheFinishedRefines) {
     EXPECT_GE(correlation(coarse, fine), 0.95);
     auto const range = [](Raster<float> const& dem) { return *std::ranges::max_element(dem.values()); };
     EXPECT_NEAR(range(coarse) / range(fine), 1.0, 0.1) << "no jump";
-    EXPECT_TRUE(test::same_bits(fine, told.measured->terrain.surface->dem));
+    EXPECT_TRUE(test::same_bits(fine, told.measured->terrain.ground.dem));
     EXPECT_EQ(told.rivers, 1);
     EXPECT_EQ(told.made, 1);
 }
@@ -346,7 +346,7 @@ TEST(Engine, SeesThatAFileWasChanged) {
     written("4000\n");
     auto const high = watched.make(document).measured;
     ASSERT_NE(high, nullptr) << watched.told(2).failed;
-    EXPECT_FALSE(test::same_bits(low->terrain.surface->dem, high->terrain.surface->dem));
+    EXPECT_FALSE(test::same_bits(low->terrain.ground.dem, high->terrain.ground.dem));
     EXPECT_TRUE(are_same(*high, make::make(document.recipe)));
 }
 

@@ -203,7 +203,7 @@ int make(MakeOptions& options, bool rebuilds, Session& session) {
             std::size_t const outlets = made.terrain.rivers.network.planform.outlets().size();
             words += fmt::format(", {} outlet{}", outlets, outlets == 1 ? "" : "s");
         }
-        if (made.terrain.surface) {
+        if (made.terrain.has_surface()) {
             words += fmt::format(", {} cells in pits", made.assessment.pits);
         }
         session.run.tell("check", fmt::format("{:<56}      {}", words, toned(Tone::good, "ok", stderr)));

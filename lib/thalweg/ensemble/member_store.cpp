@@ -465,12 +465,13 @@ std::string MemberStore::staged_part(MadeMember const& made, std::string const& 
         auto const add = [&](char const* ending, std::string const& file) {
             entries += io::tar_entry(fmt::format("{}.{}", key, ending), io::read_text(file, largest_input));
         };
-        if (made.made->terrain.surface && output.has(recipe::OutputFiles::dem)) {
-            io::write_dem(made.made->terrain.surface->dem, work + "/dem.tif", run);
+        if (made.made->terrain.has_surface() && output.has(recipe::OutputFiles::dem)) {
+            io::write_dem(made.made->terrain.ground.dem, work + "/dem.tif", run);
             add("dem.tif", work + "/dem.tif");
         }
         if (made.made->recipe.network && output.has(recipe::OutputFiles::network)) {
-            io::write_grey_png(as_shares(make::river_mask(made.made->terrain.valley)), work + "/rivers.png", 8, run);
+            io::write_grey_png(as_shares(make::river_mask(made.made->terrain.bed.valley)), work + "/rivers.png", 8,
+                               run);
             add("rivers.png", work + "/rivers.png");
         }
         entries += io::tar_entry(key + ".json", row_object(made.row));

@@ -146,12 +146,12 @@ HeightPairs pairs_of(Raster<float> const& dem, Raster<float> const& terrain, Mas
 
 } // namespace
 
-Against compare_with_dem(recipe::Plan const& plan, Terrain const& terrain, Run const& run) {
+Against compare_with_dem(Raster<float> const& of_file, std::string const& name, Terrain const& terrain,
+                         Run const& run) {
     constexpr std::int64_t least_cells = 100;
-    std::string const& name = plan.recipe.output.against;
-    Raster<float> const& own = terrain.surface->dem;
+    Raster<float> const& own = terrain.ground.dem;
     Grid const& grid = own.grid();
-    Raster<float> const dem = io::resample(plan.against, grid, fmt::format("output.against = \"{}\"", name), run);
+    Raster<float> const dem = io::resample(of_file, grid, fmt::format("output.against = \"{}\"", name), run);
     Mask compared = measure::compared_cells(dem);
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
         compared[i] = std::isnan(own[i]) ? 0 : compared[i];
@@ -165,10 +165,10 @@ Against compare_with_dem(recipe::Plan const& plan, Terrain const& terrain, Run c
                         name, found.cells, least_cells);
     found.real = shape_of(dem, compared, run);
     double const slope_deg = found.real.mean_slope_deg;
-    NearRivers const near = near_rivers_of(terrain.valley, run);
+    NearRivers const near = near_rivers_of(terrain.bed.valley, run);
     std::vector<Raster<float>> terrains{own, steepened(near.z, near.distance_m, slope_deg, compared, run),
                                         over_tin(terrain.rivers.network, near.z, run),
-                                        dilation(terrain.valley, slope_deg, compared, run)};
+                                        dilation(terrain.bed.valley, slope_deg, compared, run)};
     for (Raster<float>& one : terrains) { // all have the DEM's gaps, where water leaves
         for (std::int64_t i = 0; i < dem.cells(); ++i) {
             one[i] = std::isnan(dem[i]) ? nothing : one[i];

@@ -54,9 +54,12 @@ struct Against {
 /// Compares a terrain with the DEM of output.against. The cone rises evenly with the distance to the nearest river, the
 /// TIN joins the rivers, dilation rises from a harmonic surface through them; cone and dilation have the DEM's mean
 /// slope.
-/// \pre the plan has a DEM to compare with, and the terrain rivers and a surface
+/// \param of_file as Plan::against
+/// \param name of its file
+/// \pre the terrain has rivers and a surface
 /// \throws BadInput when fewer than 100 cells of the grid can be compared
-Against compare_with_dem(recipe::Plan const& plan, Terrain const& terrain, Run const& run = {});
+Against compare_with_dem(Raster<float> const& of_file, std::string const& name, Terrain const& terrain,
+                         Run const& run = {});
 
 /// \internal
 /// In one line: "r 0.984, above rivers 0.76, ..., beside a cone ...".

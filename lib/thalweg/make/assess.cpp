@@ -41,13 +41,13 @@ Check none_of(char const* name, std::int64_t count) {
 }
 
 /// What the rivers claim of the surface.
-measure::Claims claims_of(recipe::Plan const& plan, Terrain const& terrain) {
+measure::Claims claims_of(recipe::Recipe const& recipe, Terrain const& terrain) {
     measure::Claims claims;
-    claims.ds_area_m2 = terrain.areas.ds_area_m2;
+    claims.ds_area_m2 = terrain.water.areas.ds_area_m2;
     claims.still = either(still_cells(measure::as_file(terrain.rivers.network, terrain.rivers.orders), terrain.grid),
-                          lake_cells(terrain.channels));
-    claims.drawn = river_mask(terrain.valley);
-    if (recipe::replaces_rivers(plan.recipe)) {
+                          lake_cells(terrain.bed.channels));
+    claims.drawn = river_mask(terrain.bed.valley);
+    if (replaces_rivers(recipe)) {
         claims.honoured = claims.drawn;
     }
     return claims;
@@ -61,26 +61,25 @@ std::vector<Check> drainage_checks(SurfaceMeasures const& found, flow::FlowField
 }
 
 /// Checks of the surface: first of what the recipe asks, then that it kept the rivers' heights and drains.
-std::vector<Check> surface_checks(recipe::Plan const& plan, Terrain const& terrain, SurfaceMeasures const& found) {
-    std::vector<Check> checks = terrain.checks;
-    if (terrain.surface && plan.recipe.network) {
-        checks.push_back(none_of("valley_cells_moved", valley_cells_moved(terrain.valley, terrain.surface->dem)));
+std::vector<Check> surface_checks(recipe::Recipe const& recipe, Terrain const& terrain, SurfaceMeasures const& found) {
+    std::vector<Check> checks = terrain.notes.checks;
+    if (terrain.has_surface() && recipe.network) {
+        checks.push_back(none_of("valley_cells_moved", valley_cells_moved(terrain.bed.valley, terrain.ground.dem)));
     }
-    if (terrain.drained) {
-        append(checks, drainage_checks(found, *terrain.drainage));
+    if (terrain.water.is_conditioned) {
+        append(checks, drainage_checks(found, terrain.water.drainage));
     }
     return checks;
 }
 
 /// Says what a reader of the hillshade would see: terrain in equilibrium whose texture is not that of land.
-void warn_of_texture(recipe::Plan const& plan, Terrain const& terrain, TerrainRelief const& relief,
+void warn_of_texture(recipe::Recipe const& recipe, Terrain const& terrain, TerrainRelief const& relief,
                      StageLog& stage_log) {
     constexpr std::int64_t least_cells = 250'000; // with fewer, randomness dominates
-    if (!terrain.equilibrium || terrain.grid.cells() < least_cells) {
+    if (!terrain.ground.equilibrium() || terrain.grid.cells() < least_cells) {
         return;
     }
-    std::string const outside =
-        unusual_relief(relief_rows(relief), plan.recipe.network->source == recipe::Source::lines);
+    std::string const outside = unusual_relief(relief_rows(relief), recipe.network->source == recipe::Source::lines);
     if (!outside.empty()) {
         stage_log.find({.kind = "unusual_relief",
                         .text = "measures of the relief lie outside those of the reference DEMs: " + outside,
@@ -89,44 +88,44 @@ void warn_of_texture(recipe::Plan const& plan, Terrain const& terrain, TerrainRe
 }
 
 /// Measures a surface, with the rivers on it.
-SurfaceMeasures of_surface(recipe::Plan const& plan, Terrain const& terrain, StageLog& stage_log, Run const& run) {
-    flow::FlowField const& drainage = *terrain.drainage;
-    Raster<float> const& dem = terrain.surface->dem;
+SurfaceMeasures of_surface(recipe::Recipe const& recipe, Terrain const& terrain, StageLog& stage_log, Run const& run) {
+    flow::FlowField const& drainage = terrain.water.drainage;
+    Raster<float> const& dem = terrain.ground.dem;
     StreamNetwork const& network = terrain.rivers.network.planform;
     SurfaceMeasures found;
     found.statistics = stage_log.stage("measure", [&] { return measure::statistics(dem, run); });
     found.hypsometry = measure::hypsometry(dem, run);
     found.pits = drainage.pits;
     found.pit_volume_m3 = drainage.pit_volume_m3;
-    if (recipe::finds_catchments(plan.recipe)) {
+    if (finds_catchments(recipe)) {
         found.catchments =
             stage_log.stage("catchments", [&] { return flow::catchments(flow::reaches_of(network), drainage, run); });
     }
-    if (plan.recipe.network) {
-        if (plan.recipe.network->inland == recipe::InlandEnds::sink) {
+    if (recipe.network) {
+        if (recipe.network->inland == recipe::InlandEnds::sink) {
             found.sinks = inland_ends(network, dem);
         }
         found.certificate = stage_log.stage("certify", [&] {
-            return measure::certify(dem, drainage, flow::reaches_of(network), claims_of(plan, terrain), run);
+            return measure::certify(dem, drainage, flow::reaches_of(network), claims_of(recipe, terrain), run);
         });
     }
-    if (!terrain.ridges.lines.empty()) {
+    if (!terrain.ground.ridges.lines.empty()) {
         found.surface_ridges =
-            stage_log.stage("ridges", [&] { return measure::extract_ridges(dem, terrain.ridges, run); });
+            stage_log.stage("ridges", [&] { return measure::extract_ridges(dem, terrain.ground.ridges, run); });
         measure::Agreement const& within_a_cell = found.surface_ridges->extracted[1];
         stage_log.say(
             fmt::format("{:.0f} % of those asked for are ridges of the surface, {:.0f} % of its own are asked for",
                         100.0 * within_a_cell.recall, 100.0 * within_a_cell.precision));
     }
-    if (recipe::measures_areas(plan.recipe)) {
+    if (measures_areas(recipe)) {
         found.water_areas = stage_log.stage("areas", [&] {
             return WaterAreas{areas_m2(drainage), areas_m2(flow::route_dinf(dem, drainage, run).area_cells)};
         });
     }
     found.laws = stage_log.stage("laws", [&] { return laws_of_terrain(terrain, found.statistics->cells, run); });
     found.relief =
-        stage_log.stage("relief", [&] { return relief_of_terrain(plan.recipe, terrain, *found.statistics, run); });
-    warn_of_texture(plan, terrain, *found.relief, stage_log);
+        stage_log.stage("relief", [&] { return relief_of_terrain(recipe, terrain, *found.statistics, run); });
+    warn_of_texture(recipe, terrain, *found.relief, stage_log);
     return found;
 }
 
@@ -163,7 +162,7 @@ void warn_of_coarse_cells(Terrain const& terrain, StageLog& stage_log, Run const
     constexpr double worth_a_word = 0.2;
     constexpr double cells_an_arc = 8.0;
     StreamNetwork const& network = terrain.rivers.network.planform;
-    if (network.arc_count() == 0 || !terrain.surface) {
+    if (network.arc_count() == 0 || !terrain.has_surface()) {
         return;
     }
     std::vector<bool> has_cell(network.arc_count());
@@ -189,15 +188,16 @@ void warn_of_coarse_cells(Terrain const& terrain, StageLog& stage_log, Run const
 }
 
 /// The check given_length; notes the account of the input's length, and warns where more than 1 % of it is missing.
-Check length_check(recipe::Plan const& plan, GivenLength const& given, Grid const& grid, StageLog& stage_log) {
+Check length_check(recipe::LinesRecipe const& wanted, std::string const& file, GivenLength const& given,
+                   Grid const& grid, StageLog& stage_log) {
     constexpr double worth_a_word = 0.99;
     double const share = given.share();
-    double const least = plan.recipe.network->lines.keep;
+    double const least = wanted.keep;
     stage_log.find({.kind = "given",
                     .amount = given.given_m(),
                     .text = line_of(given),
                     .key = "network.lines.path",
-                    .layer = plan.lines.name,
+                    .layer = file,
                     .numbers = {{"kept", given.kept_m, "m"}}});
     if (share < worth_a_word) {
         double const gone_m = given.given_m() - given.kept_m;
@@ -207,37 +207,37 @@ Check length_check(recipe::Plan const& plan, GivenLength const& given, Grid cons
              .amount = gone_m,
              .text = fmt::format("{:.1f} of the {:.1f} km of rivers in {} are not in the network, {}. Layer secondary "
                                  "of network.gpkg has them",
-                                 gone_m / 1000.0, given.given_m() / 1000.0, plan.lines.name,
+                                 gone_m / 1000.0, given.given_m() / 1000.0, file,
                                  short_m > 0.5 * gone_m ? "most of them too short"
                                                         : "most of them cut at heads that lie beside other rivers"),
              .remedy = short_m < gone_m
                            ? fmt::format("Finer cells keep them apart: --set grid.cell={}", grid.cell_m / 2.0)
                            : "",
              .key = "network.lines.path",
-             .layer = plan.lines.name,
+             .layer = file,
              .numbers = {{"given", given.given_m(), "m"}}});
     }
     return {"given_length", share, least, share >= least, Bound::at_least};
 }
 
-void warn_of_heights(recipe::Plan const& plan, GivenHeights const& given, StageLog& stage_log) {
+void warn_of_heights(std::string const& file, GivenHeights const& given, StageLog& stage_log) {
     stage_log.find({.kind = "heights",
                     .amount = given.largest_m,
                     .text = line_of(given),
                     .key = "network.heights",
-                    .layer = plan.lines.name});
+                    .layer = file});
     if (given.missed > 0) {
-        stage_log.find({.kind = "heights_missed",
-                        .amount = given.largest_m,
-                        .text = fmt::format("at {} of the {} vertices with heights in {} dem.tif is off by more than "
-                                            "{:g} m: by {:.3g} m on average, by {:.3g} m at most",
-                                            given.missed, given.vertices, plan.lines.name, given.tolerance_m,
-                                            given.mean_m, given.largest_m),
-                        .key = "network.heights_tolerance",
-                        .layer = plan.lines.name,
-                        .numbers = {{"missed", static_cast<double>(given.missed), "vertices"},
-                                    {"vertices", static_cast<double>(given.vertices), "vertices"},
-                                    {"mean", given.mean_m, "m"}}});
+        stage_log.find(
+            {.kind = "heights_missed",
+             .amount = given.largest_m,
+             .text = fmt::format("at {} of the {} vertices with heights in {} dem.tif is off by more than "
+                                 "{:g} m: by {:.3g} m on average, by {:.3g} m at most",
+                                 given.missed, given.vertices, file, given.tolerance_m, given.mean_m, given.largest_m),
+             .key = "network.heights_tolerance",
+             .layer = file,
+             .numbers = {{"missed", static_cast<double>(given.missed), "vertices"},
+                         {"vertices", static_cast<double>(given.vertices), "vertices"},
+                         {"mean", given.mean_m, "m"}}});
     }
 }
 
@@ -302,40 +302,46 @@ bool Assessment::passed() const {
 
 Assessment assess(recipe::Plan const& plan, Planform const& planform, Terrain const& terrain, Run const& run) {
     StageLog stage_log(run);
-    Assessment found{terrain.surface ? of_surface(plan, terrain, stage_log, run)
-                                     : SurfaceMeasures{.laws = laws_of_terrain(terrain, terrain.grid.cells(), run)}};
-    found.checks = surface_checks(plan, terrain, found);
-    if (plan.recipe.network) {
+    recipe::Recipe const& recipe = plan.recipe;
+    Assessment found{terrain.has_surface()
+                         ? of_surface(recipe, terrain, stage_log, run)
+                         : SurfaceMeasures{.laws = laws_of_terrain(terrain, terrain.grid.cells(), run)}};
+    found.checks = surface_checks(recipe, terrain, found);
+    if (recipe.network) {
         measure::TopologyReport topology = topology_of(terrain, stage_log, run);
         found.checks.insert(found.checks.begin(), none_of("uphill_arcs", uphill_arcs(terrain.rivers.network)));
         append(found.checks, std::move(topology.checks));
         stage_log.find(topology.findings);
-        if (terrain.drained) {
+        if (terrain.water.is_conditioned) {
             stage_log.find(findings_of(found.certificate));
         }
     }
     warn_of_coarse_cells(terrain, stage_log, run);
-    found.given = given_length(plan, planform, terrain);
-    if (found.given) {
-        found.checks.push_back(length_check(plan, *found.given, terrain.grid, stage_log));
+    if (recipe.network && recipe.network->source == recipe::Source::lines) {
+        found.given = given_length(plan.findings, planform, terrain);
+        found.checks.push_back(
+            length_check(recipe.network->lines, plan.lines.name, *found.given, terrain.grid, stage_log));
     }
-    found.given_heights = given_heights(plan, planform, terrain);
+    if (recipe.network) {
+        found.given_heights = given_heights(*recipe.network, plan.lines, planform, terrain);
+    }
     if (found.given_heights) {
-        warn_of_heights(plan, *found.given_heights, stage_log);
+        warn_of_heights(plan.lines.name, *found.given_heights, stage_log);
     }
-    found.given_features = given_features(plan, terrain);
+    found.given_features = given_features(recipe, plan.points, plan.ridge_lines, terrain);
     if (found.given_features) {
         stage_log.find({.kind = "features", .text = line_of(*found.given_features)});
         warn_of_features(*found.given_features, stage_log);
     }
-    if (terrain.drainage && found.given) {
-        found.given_areas = given_areas(plan, planform, terrain);
+    if (terrain.has_surface() && found.given) {
+        found.given_areas = given_areas(plan.lines, planform, terrain);
     }
     if (found.given_areas) {
         stage_log.find({.kind = "areas", .text = line_of(*found.given_areas)});
     }
     if (plan.against.cells() > 0) {
-        found.against = stage_log.stage("compare", [&] { return compare_with_dem(plan, terrain, run); });
+        found.against = stage_log.stage(
+            "compare", [&] { return compare_with_dem(plan.against, recipe.output.against, terrain, run); });
         stage_log.say(line_of(*found.against));
     }
     found.findings = stage_log.take_findings();

@@ -81,9 +81,9 @@ bool at_river(Valley const& valley, std::int64_t cell) {
 
 RidgeOff ridge_off(RiverLine const& ridge, Terrain const& terrain) {
     constexpr std::int64_t least_area = 10; // [cells] of water that crosses
-    Raster<float> const& dem = terrain.surface->dem;
+    Raster<float> const& dem = terrain.ground.dem;
     Grid const& grid = dem.grid();
-    flow::FlowField const& drainage = *terrain.drainage;
+    flow::FlowField const& drainage = terrain.water.drainage;
     std::vector<CellOfLine> const cells = cells_of_line(ridge.vertices, grid);
     std::map<std::int64_t, bool> on_line;
     for (CellOfLine const& c : cells) {
@@ -91,7 +91,7 @@ RidgeOff ridge_off(RiverLine const& ridge, Terrain const& terrain) {
     }
     RidgeOff off{ridge.feature, static_cast<std::int64_t>(cells.size()), 0, 0, std::nullopt};
     for (CellOfLine const& c : cells) {
-        if (at_river(terrain.valley, c.cell)) {
+        if (at_river(terrain.bed.valley, c.cell)) {
             ++off.in_rivers;
             continue;
         }
@@ -112,20 +112,21 @@ RidgeOff ridge_off(RiverLine const& ridge, Terrain const& terrain) {
 
 } // namespace
 
-std::vector<surface::FeatureCell> feature_cells(recipe::Plan const& plan, Grid const& grid) {
+std::vector<surface::FeatureCell> feature_cells(FeaturePoints const& points, RiverLines const& ridges,
+                                                Grid const& grid) {
     std::map<std::int64_t, surface::FeatureCell> cells;
-    for (RiverLine const& ridge : plan.ridge_lines.lines) {
+    for (RiverLine const& ridge : ridges.lines) {
         for (CellOfLine const& c : cells_of_line(ridge.vertices, grid)) {
             surface::FeatureCell& cell = cells[c.cell];
             cell = {c.cell, static_cast<float>(higher(static_cast<double>(cell.z), c.z_m)), true};
         }
     }
-    std::map<std::int64_t, double> points;
-    for (Vec3 const& p : plan.points.points) {
-        auto const [place, is_new] = points.try_emplace(grid.index(grid.cell_of(in_plan(p))), p.z);
+    std::map<std::int64_t, double> heights;
+    for (Vec3 const& p : points.points) {
+        auto const [place, is_new] = heights.try_emplace(grid.index(grid.cell_of(in_plan(p))), p.z);
         place->second = std::max(place->second, p.z);
     }
-    for (auto const& [cell, z_m] : points) {
+    for (auto const& [cell, z_m] : heights) {
         cells[cell] = {cell, static_cast<float>(z_m), cells[cell].crest};
     }
     std::vector<surface::FeatureCell> out;
@@ -135,8 +136,9 @@ std::vector<surface::FeatureCell> feature_cells(recipe::Plan const& plan, Grid c
     return out;
 }
 
-RidgeLines ridges_with_heights(recipe::Plan const& plan, Valley const& valley, Run const& run) {
-    RidgeLines ridges = as_ridges(plan.ridge_lines);
+RidgeLines ridges_with_heights(RiverLines const& lines, recipe::SkeletonRecipe const& wanted, Valley const& valley,
+                               Run const& run) {
+    RidgeLines ridges = as_ridges(lines);
     Grid const& grid = valley.z.grid();
     Mask rivers(grid);
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
@@ -144,7 +146,6 @@ RidgeLines ridges_with_heights(recipe::Plan const& plan, Valley const& valley, R
     }
     bool const open = std::ranges::any_of(ridges.lines, [](RidgeLine const& r) { return std::isnan(r.line[0].z); });
     Raster<std::int64_t> const nearest = open ? nearest_cells(rivers, run) : Raster<std::int64_t>{};
-    recipe::SkeletonRecipe const& wanted = *plan.recipe.skeleton;
     double const most_m =
         wanted.ridge_farthest_m > 0.0 ? wanted.ridge_farthest_m : std::numeric_limits<double>::infinity();
     for (RidgeLine& ridge : ridges.lines) {
@@ -185,8 +186,8 @@ FeaturePoints as_points(RidgeLines const& ridges, Grid const& grid) {
     return points;
 }
 
-RidgeLines ridges_on(recipe::Plan const& plan, Raster<float> const& dem) {
-    RidgeLines ridges = as_ridges(plan.ridge_lines);
+RidgeLines ridges_on(RiverLines const& lines, Raster<float> const& dem) {
+    RidgeLines ridges = as_ridges(lines);
     for (RidgeLine& ridge : ridges.lines) {
         for (Vec3& v : ridge.line) {
             v.z = static_cast<double>(dem[dem.grid().cell_of(in_plan(v))]);
@@ -200,20 +201,21 @@ std::int64_t GivenFeatures::missed() const {
                                  [this](PointOff const& p) { return !(std::fabs(p.z_m - p.asked_m) <= tolerance_m); });
 }
 
-std::optional<GivenFeatures> given_features(recipe::Plan const& plan, Terrain const& terrain) {
-    if (!plan.recipe.network || !terrain.surface || (plan.points.points.empty() && plan.ridge_lines.lines.empty())) {
+std::optional<GivenFeatures> given_features(recipe::Recipe const& recipe, FeaturePoints const& points,
+                                            RiverLines const& ridges, Terrain const& terrain) {
+    if (!recipe.network || !terrain.has_surface() || (points.points.empty() && ridges.lines.empty())) {
         return std::nullopt;
     }
-    Raster<float> const& dem = terrain.surface->dem;
+    Raster<float> const& dem = terrain.ground.dem;
     GivenFeatures given;
-    given.points_file = plan.recipe.skeleton->points;
-    given.ridges_file = plan.recipe.skeleton->ridge_lines;
+    given.points_file = recipe.skeleton->points;
+    given.ridges_file = recipe.skeleton->ridge_lines;
     std::int64_t number = 0;
-    for (Vec3 const& p : plan.points.points) {
+    for (Vec3 const& p : points.points) {
         given.points.push_back({++number, in_plan(p), p.z, static_cast<double>(dem[dem.grid().cell_of(in_plan(p))]),
-                                !std::isnan(terrain.valley.z[dem.grid().cell_of(in_plan(p))])});
+                                !std::isnan(terrain.bed.valley.z[dem.grid().cell_of(in_plan(p))])});
     }
-    for (RiverLine const& ridge : plan.ridge_lines.lines) {
+    for (RiverLine const& ridge : ridges.lines) {
         given.ridges.push_back(ridge_off(ridge, terrain));
     }
     return given;

@@ -43,11 +43,13 @@ struct GivenFeatures {
     std::int64_t missed() const;
 };
 
-/// Compares the points and ridges of a plan with its terrain.
-/// \param plan with rivers
+/// Compares given points and ridges with the terrain.
+/// \param recipe of it
+/// \param points,ridges of its files
 /// \param terrain of it, which drains
-/// \return nothing where the plan has neither
-std::optional<GivenFeatures> given_features(recipe::Plan const& plan, Terrain const& terrain);
+/// \return nothing where there are neither, or no rivers
+std::optional<GivenFeatures> given_features(recipe::Recipe const& recipe, FeaturePoints const& points,
+                                            RiverLines const& ridges, Terrain const& terrain);
 
 /// \internal
 /// Formats the comparison.

@@ -74,9 +74,9 @@ std::vector<io::ShortenedName> shortened_names(Made const& t) {
     }
     io::NetworkTables tables{t.terrain.rivers.network,
                              t.terrain.rivers.orders,
-                             t.terrain.areas.us_area_m2,
-                             t.terrain.areas.ds_area_m2,
-                             t.terrain.areas.node_m2,
+                             t.terrain.water.areas.us_area_m2,
+                             t.terrain.water.areas.ds_area_m2,
+                             t.terrain.water.areas.node_m2,
                              t.terrain.grid.crs,
                              {}};
     tables.user = &*user;

@@ -128,10 +128,7 @@ char const* words_of(LeftOut cause) {
     return words[static_cast<std::size_t>(cause)].text;
 }
 
-std::optional<GivenLength> given_length(recipe::Plan const& plan, Planform const& planform, Terrain const& terrain) {
-    if (!plan.recipe.network || plan.recipe.network->source != recipe::Source::lines) {
-        return std::nullopt;
-    }
+GivenLength given_length(std::vector<Finding> const& of_plan, Planform const& planform, Terrain const& terrain) {
     RiverFile const& file = planform.file;
     GivenLength given;
     given.secondary = file.secondary;
@@ -158,7 +155,7 @@ std::optional<GivenLength> given_length(recipe::Plan const& plan, Planform const
     given.kept_m = imported_m - of_imported_m;
     given.read_m = file.taken_m + of_file_m;
     given.closed_m = imported_m + given.left_out(LeftOut::pruned) + of_import_m - file.taken_m;
-    std::vector<Finding> repairs = plan.findings;
+    std::vector<Finding> repairs = of_plan;
     append(repairs, planform.findings);
     given.carried_m = sum_of(repairs, {"carried_outlet", "joined_outlet"});
     given.turned_m = sum_of(repairs, {"reversed"});
@@ -209,12 +206,11 @@ void sum_up(std::map<std::int64_t, std::vector<double>>& off_m, GivenHeights& gi
 
 } // namespace
 
-std::optional<GivenHeights> given_heights(recipe::Plan const& plan, Planform const& planform, Terrain const& terrain) {
-    auto const asks = [&](recipe::Heights heights) {
-        return plan.recipe.network && plan.recipe.network->heights == heights;
-    };
-    bool const taken = asks(recipe::Heights::file) || asks(recipe::Heights::soft) || asks(recipe::Heights::fixed);
-    if (!taken || !plan.lines.has_z || !planform.file_heights || !terrain.surface) {
+std::optional<GivenHeights> given_heights(recipe::NetworkRecipe const& wanted, RiverLines const& lines,
+                                          Planform const& planform, Terrain const& terrain) {
+    bool const taken = wanted.heights == recipe::Heights::file || wanted.heights == recipe::Heights::soft ||
+                       wanted.heights == recipe::Heights::fixed;
+    if (!taken || !lines.has_z || !planform.file_heights || !terrain.has_surface()) {
         return std::nullopt;
     }
     std::set<std::pair<double, double>> of_file; // without those of outlets that were carried on
@@ -223,10 +219,10 @@ std::optional<GivenHeights> given_heights(recipe::Plan const& plan, Planform con
             of_file.insert({v.x, v.y});
         }
     }
-    Raster<float> const& dem = terrain.surface->dem;
+    Raster<float> const& dem = terrain.ground.dem;
     double const cell_m = dem.grid().cell_m;
     GivenHeights given;
-    given.tolerance_m = plan.recipe.network->heights_tolerance_m;
+    given.tolerance_m = wanted.heights_tolerance_m;
     double sum_m = 0.0;
     ElevatedNetwork const& asked = *planform.file_heights;
     std::vector<std::vector<Stretch>> const stretches = planform.file.sources.of(asked.planform);
@@ -262,9 +258,9 @@ std::optional<GivenHeights> given_heights(recipe::Plan const& plan, Planform con
     return given;
 }
 
-std::optional<GivenAreas> given_areas(recipe::Plan const& plan, Planform const& planform, Terrain const& terrain) {
+std::optional<GivenAreas> given_areas(RiverLines const& of_file, Planform const& planform, Terrain const& terrain) {
     std::map<std::int64_t, double> area_of; // by feature
-    for (auto const* lines : {&plan.lines.lines, &plan.lines.channels}) {
+    for (auto const* lines : {&of_file.lines, &of_file.channels}) {
         for (RiverLine const& line : *lines) {
             if (line.area_m2 > 0.0) {
                 area_of.try_emplace(line.feature, line.area_m2);
@@ -286,7 +282,7 @@ std::optional<GivenAreas> given_areas(recipe::Plan const& plan, Planform const& 
         bool const goes_on =
             below != no_arc && !stretches[below].empty() && stretches[below].front().feature == feature;
         if (auto const area = area_of.find(feature); area != area_of.end() && !goes_on) {
-            ratios.push_back(terrain.areas.ds_area_m2[a] / area->second);
+            ratios.push_back(terrain.water.areas.ds_area_m2[a] / area->second);
         }
     }
     if (ratios.empty()) {

@@ -13,7 +13,7 @@
 #include <thalweg/make/planform.hpp>
 #include <thalweg/make/terrain.hpp>
 #include <thalweg/network/import/import_lines.hpp>
-#include <thalweg/recipe/plan.hpp>
+#include <thalweg/recipe/recipe.hpp>
 
 namespace thalweg::make {
 
@@ -51,11 +51,11 @@ char const* key_of(LeftOut cause);
 /// \return for readers: "cut at heads"
 char const* words_of(LeftOut cause);
 
-/// Accounts for the lines of a plan.
-/// \param planform rivers made of it
-/// \param terrain made of them
-/// \return nothing where rivers are not read from lines
-std::optional<GivenLength> given_length(recipe::Plan const& plan, Planform const& planform, Terrain const& terrain);
+/// Accounts for the lines of a file.
+/// \param of_plan what was found when they were read
+/// \param planform rivers made of them
+/// \param terrain made of these
+GivenLength given_length(std::vector<Finding> const& of_plan, Planform const& planform, Terrain const& terrain);
 
 /// How far the DEM is from the heights of one feature of a file.
 struct RiverOff {
@@ -79,11 +79,14 @@ struct GivenHeights {
     std::vector<RiverOff> rivers = {}; ///< by most_off_m, falling; a thousand at most
 };
 
-/// Compares the heights of a plan's lines with the DEM.
-/// \param planform rivers made of it
+/// Compares the heights of a file's lines with the DEM.
+/// \param wanted what the recipe takes of them
+/// \param lines of the file
+/// \param planform rivers made of these
 /// \param terrain made of them
 /// \return nothing where the network does not take all heights of a file, or there is no DEM
-std::optional<GivenHeights> given_heights(recipe::Plan const& plan, Planform const& planform, Terrain const& terrain);
+std::optional<GivenHeights> given_heights(recipe::NetworkRecipe const& wanted, RiverLines const& lines,
+                                          Planform const& planform, Terrain const& terrain);
 
 /// Drainage areas at the lower ends of a file's lines, compared with the terrain's. Ratios: terrain / file.
 struct GivenAreas {
@@ -94,11 +97,12 @@ struct GivenAreas {
     double within_factor_2 = 0.0; ///< [0, 1] share of arcs
 };
 
-/// Compares the drainage areas of a plan's lines with those of the terrain.
-/// \param planform rivers made of it
+/// Compares the drainage areas of a file's lines with those of the terrain.
+/// \param of_file its lines
+/// \param planform rivers made of these
 /// \param terrain made of them
 /// \return nothing where the file has none
-std::optional<GivenAreas> given_areas(recipe::Plan const& plan, Planform const& planform, Terrain const& terrain);
+std::optional<GivenAreas> given_areas(RiverLines const& of_file, Planform const& planform, Terrain const& terrain);
 
 /// \internal
 /// Formats the account.

@@ -18,21 +18,6 @@
 
 namespace thalweg::make {
 
-std::vector<Finding> off_levels(std::vector<Finding> const& lakes) {
-    if (lakes.empty()) {
-        return {};
-    }
-    Finding const& first = lakes.front();
-    std::string const more =
-        lakes.size() > 1 ? fmt::format(". Others that miss their levels: {}", lakes.size() - 1) : "";
-    return {{.kind = "lakes_off_levels",
-             .feature = first.feature,
-             .where = first.where,
-             .text = first.text + more,
-             .key = "surface.lakes",
-             .numbers = {{"lakes", static_cast<double>(lakes.size())}}}};
-}
-
 namespace {
 
 constexpr float no_level = std::numeric_limits<float>::quiet_NaN();
@@ -82,10 +67,10 @@ struct Lakes {
 };
 
 /// The lakes of a file.
-Polygons lake_polygons(recipe::Plan const& plan, Grid const& grid, Run const& run) {
+Polygons lake_polygons(recipe::Recipe const& recipe, Grid const& grid, Run const& run) {
     constexpr double most_m = 1e5;
-    std::string const& path = plan.recipe.surface->equilibrium.lakes;
-    Polygons polygons = io::read_polygons_valued(recipe::file_in(plan.recipe, path), grid.crs, "level", run);
+    std::string const& path = recipe.surface->equilibrium.lakes;
+    Polygons polygons = io::read_polygons_valued(recipe::file_in(recipe, path), grid.crs, "level", run);
     for (Polygon const& lake : polygons.polygons) {
         refuse_if<BadInput>(std::fabs(lake.value) > most_m,
                             "surface.lakes = \"{}\": feature {} has the level {} m, which is not from {} to {} m", path,
@@ -94,18 +79,18 @@ Polygons lake_polygons(recipe::Plan const& plan, Grid const& grid, Run const& ru
     return polygons;
 }
 
-Lakes lakes_of(recipe::Plan const& plan, Planform const& planform, network::ChannelsOfArcs const& rivers,
+Lakes lakes_of(recipe::Recipe const& recipe, Planform const& planform, network::ChannelsOfArcs const& rivers,
                Run const& run) {
-    recipe::EquilibriumRecipe const& wanted = plan.recipe.surface->equilibrium;
+    recipe::EquilibriumRecipe const& wanted = recipe.surface->equilibrium;
     if (wanted.lake_share > 0.0) {
         flow::ContributingAreas const areas = flow::areas_nearest(planform.network, planform.grid, run);
-        return {network::choose_lakes(rivers, areas.ds_area_m2, {.share = wanted.lake_share, .seed = plan.recipe.seed},
-                                      run)};
+        return {
+            network::choose_lakes(rivers, areas.ds_area_m2, {.share = wanted.lake_share, .seed = recipe.seed}, run)};
     }
     if (wanted.lakes.empty()) {
         return {};
     }
-    Polygons const polygons = lake_polygons(plan, planform.grid, run);
+    Polygons const polygons = lake_polygons(recipe, planform.grid, run);
     Lakes lakes{blend::number_polygons(polygons, planform.grid)};
     lakes.notes = unseen_lakes(polygons, lakes.labels);
     std::ranges::transform(polygons.polygons, std::back_inserter(lakes.level), &Polygon::value);
@@ -132,14 +117,14 @@ void set_levels(Lakes const& wanted, network::Flooded& flooded) {
             lost.push_back(note);
         }
     }
-    append(flooded.notes, off_levels(lost));
+    append(flooded.notes, network::lakes_off_levels(lost));
 }
 
 } // namespace
 
-WithLakes with_lakes(recipe::Plan const& plan, Planform const& planform, network::ChannelsOfArcs rivers,
+WithLakes with_lakes(recipe::Recipe const& recipe, Planform const& planform, network::ChannelsOfArcs rivers,
                      Run const& run) {
-    Lakes lakes = lakes_of(plan, planform, rivers, run);
+    Lakes lakes = lakes_of(recipe, planform, rivers, run);
     if (lakes.labels.cells() == 0) {
         return {std::move(rivers)};
     }

@@ -122,19 +122,19 @@ DemLaws laws_of_dem(Raster<float> const& dem, DemLawsParams const& params, Run c
 RiverLaws laws_of_terrain(Terrain const& terrain, std::int64_t land_cells, Run const& run) {
     RiverLaws found;
     std::optional<Raster<float>> flow_length;
-    if (terrain.drainage) {
-        flow_length = flow::flow_lengths(*terrain.drainage, run);
+    if (terrain.has_surface()) {
+        flow_length = flow::flow_lengths(terrain.water.drainage, run);
     }
     Grid const& grid = terrain.grid;
     DemLawsParams params;
     if (terrain.rivers.network.planform.arc_count() > 0) {
-        found.network = laws_of(terrain.rivers.network, terrain.rivers.orders, terrain.areas, grid, land_cells,
+        found.network = laws_of(terrain.rivers.network, terrain.rivers.orders, terrain.water.areas, grid, land_cells,
                                 flow_length ? &*flow_length : nullptr);
         params.network_m =
             found.network->drainage_density_m * static_cast<double>(land_cells) * grid.cell_m * grid.cell_m;
     }
-    if (terrain.drainage) {
-        found.dem = laws_of_dem(terrain.surface->dem, *terrain.drainage, *flow_length, params, run);
+    if (terrain.has_surface()) {
+        found.dem = laws_of_dem(terrain.ground.dem, terrain.water.drainage, *flow_length, params, run);
     }
     return found;
 }

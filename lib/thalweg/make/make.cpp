@@ -11,12 +11,12 @@ recipe::Recipe recipe_of(recipe::Plan const& plan, Terrain const& terrain) {
     recipe.grid.width = terrain.grid.width;
     recipe.grid.height = terrain.grid.height;
     recipe.grid.origin = {terrain.grid.west, terrain.grid.north};
-    if (terrain.equilibrium) {
-        recipe.surface->equilibrium.edge = terrain.equilibrium->edge;
+    if (terrain.ground.equilibrium()) {
+        recipe.surface->equilibrium.edge = terrain.ground.equilibrium()->edge;
     }
-    if (terrain.detail) {
-        recipe.detail->midpoint.hurst = terrain.detail->hurst;
-        recipe.detail->midpoint.sigma = terrain.detail->sigma;
+    if (terrain.ground.detail.hurst > 0.0) {
+        recipe.detail->midpoint.hurst = terrain.ground.detail.hurst;
+        recipe.detail->midpoint.sigma = terrain.ground.detail.sigma;
     }
     return recipe;
 }
@@ -34,7 +34,7 @@ Made make(recipe::Recipe const& recipe, Run const& run) {
 Timings timings_of(Made const& made) {
     Timings all = made.plan.timings_s;
     append(all, made.planform.timings_s);
-    append(all, made.terrain.timings_s);
+    append(all, made.terrain.notes.timings_s);
     append(all, made.assessment.timings_s);
     return all;
 }
@@ -42,7 +42,7 @@ Timings timings_of(Made const& made) {
 std::vector<Finding> findings_of(Made const& made) {
     std::vector<Finding> all = made.plan.findings;
     append(all, made.planform.findings);
-    append(all, made.terrain.findings);
+    append(all, made.terrain.notes.findings);
     append(all, made.assessment.findings);
     return all;
 }

@@ -47,13 +47,13 @@ struct Bent {
 };
 
 /// Bends rivers where the plan wants it; where there is a sea, none leaves the land.
-Bent bent(recipe::Plan const& plan, StreamNetwork network, RiverFile file, Grid const& grid, Mask const& land,
+Bent bent(recipe::Recipe const& recipe, StreamNetwork network, RiverFile file, Grid const& grid, Mask const& land,
           StageLog& stage_log, Run const& run) {
-    if (!recipe::has_meanders(plan)) {
+    if (!has_meanders(recipe)) {
         return {std::move(network), std::move(file)};
     }
     flow::ContributingAreas const areas = flow::areas_nearest(network, grid, run);
-    network::MeanderParams const params{.gain = *plan.recipe.network->meander, .seed = plan.recipe.seed};
+    network::MeanderParams const params{.gain = *recipe.network->meander, .seed = recipe.seed};
     network::Meandered meandered = stage_log.stage("meander", [&] {
         return land.cells() > 0 ? network::meander(network, land, areas.ds_area_m2, params, run)
                                 : network::meander(network, grid, areas.ds_area_m2, params, run);
@@ -107,14 +107,14 @@ struct Carried {
 
 /// Carries outlets inside the grid to where rivers may end, if the recipe wants it. Those at the sea reach it in any
 /// case; what lies beside a river is land. keeps_heights: the rivers have heights, so that none may fall into another.
-Carried with_outlets_carried(recipe::Plan const& plan, StreamNetwork network, Grid const& grid, Mask land,
+Carried with_outlets_carried(recipe::NetworkRecipe const& wanted, StreamNetwork network, Grid const& grid, Mask land,
                              bool keeps_heights, Run const& run) {
     Carried result{std::move(network), std::move(land), {}};
-    if (plan.recipe.network->source == recipe::Source::forest) {
+    if (wanted.source == recipe::Source::forest) {
         return result; // its outlets lie on its coast
     }
     constexpr std::int64_t at_sea_cells = 4;
-    recipe::InlandEnds const inland = plan.recipe.network->inland;
+    recipe::InlandEnds const inland = wanted.inland;
     bool const all = inland != recipe::InlandEnds::sink;
     network::CarryParams const params{.join = !keeps_heights};
     auto const take = [&](network::Carried carried) {
@@ -198,9 +198,8 @@ struct Pruned {
     std::vector<Finding> notes;
 };
 
-Pruned pruned(recipe::Plan const& plan, StreamNetwork const& network, RiverFile file, double cell_m,
+Pruned pruned(recipe::NetworkRecipe const& rivers, StreamNetwork const& network, RiverFile file, double cell_m,
               StageLog& stage_log, Run const& run) {
-    recipe::NetworkRecipe const& rivers = *plan.recipe.network;
     network::Pruned kept =
         stage_log.stage("prune", [&] { return prune(network, rivers, *rivers.prune_cells, cell_m, run); });
     stage_log.say(
@@ -235,7 +234,7 @@ std::int64_t bytes_of(StreamNetwork const& network) {
 
 TimedSource source_of(recipe::Plan const& plan, Run const& run) {
     return kept_or_made(
-        run, "source", [&] { return recipe::source_made_from(plan); },
+        run, "source", [&] { return recipe::source_made_from(plan.recipe, plan.heights_of_file); },
         [&] {
             StageLog stage_log(run);
             SourceRivers rivers = rivers_of_source(plan, stage_log, run);
@@ -255,17 +254,18 @@ Planform drawn(recipe::Plan const& plan, Run const& run) {
     stage_log.find(made.findings);
     SourceRivers& source = made.rivers;
     stage_log.find(recipe::conversions(plan.recipe, source.grid));
-    Pruned kept = pruned(plan, source.network, std::move(source.file), source.grid.cell_m, stage_log, run);
+    Pruned kept =
+        pruned(*plan.recipe.network, source.network, std::move(source.file), source.grid.cell_m, stage_log, run);
     stage_log.find(kept.notes);
     NetworkStatistics statistics = statistics_of(std::move(source.statistics), kept);
-    Carried carried = with_outlets_carried(plan, std::move(kept.network), source.grid, std::move(source.land),
-                                           source.file_heights.has_value(), run);
+    Carried carried = with_outlets_carried(*plan.recipe.network, std::move(kept.network), source.grid,
+                                           std::move(source.land), source.file_heights.has_value(), run);
     stage_log.find(carried.notes);
-    refuse_if<BadParameter>(recipe::has_meanders(plan) && source.file_heights,
+    refuse_if<BadParameter>(has_meanders(plan.recipe) && source.file_heights,
                             "network.meander cannot bend rivers whose heights come from their "
                             "file; set network.heights = \"graded\" or leave meander out");
     Bent rivers =
-        bent(plan, std::move(carried.network), std::move(kept.file), source.grid, carried.land, stage_log, run);
+        bent(plan.recipe, std::move(carried.network), std::move(kept.file), source.grid, carried.land, stage_log, run);
     Typed typed = type_rivers(std::move(rivers.network), *plan.recipe.network, run);
     std::optional<ElevatedNetwork> file_heights;
     if (source.file_heights) {
@@ -289,7 +289,8 @@ Planform make_planform(recipe::Plan const& plan, Run const& run) {
         return {};
     }
     Planform planform = kept_or_made(
-        run, "planform", [&] { return recipe::planform_made_from(plan); }, [&] { return drawn(plan, run); },
+        run, "planform", [&] { return recipe::planform_made_from(plan.recipe, plan.heights_of_file); },
+        [&] { return drawn(plan, run); },
         [](Planform const& made) {
             constexpr std::int64_t copies = 4;
             return copies * bytes_of(made.network) + made.land.cells();

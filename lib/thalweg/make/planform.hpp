@@ -66,8 +66,8 @@ struct Planform {
 /// \return the same rivers for the same plan, whatever the Run; none where the plan has no [network]
 Planform make_planform(recipe::Plan const& plan, Run const& run = {});
 
-/// The cluster of a plan whose rivers are a branch of one.
+/// The cluster of a recipe whose rivers are a branch of one.
 /// \internal
-network::Cluster cluster_of(recipe::Plan const& plan, Run const& run);
+network::Cluster cluster_of(recipe::Recipe const& recipe, Run const& run);
 
 } // namespace thalweg::make

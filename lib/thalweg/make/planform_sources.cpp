@@ -78,22 +78,21 @@ network::Branch branch_of(network::Cluster const& cluster, recipe::Recipe const&
 
 } // namespace
 
-network::Cluster cluster_of(recipe::Plan const& plan, Run const& run) {
+network::Cluster cluster_of(recipe::Recipe const& recipe, Run const& run) {
     return kept_or_made(
-        run, "cluster", [&] { return recipe::cluster_made_from(plan); },
-        [&] { return network::grow_dla(plan.recipe.network->dla, run); },
+        run, "cluster", [&] { return recipe::cluster_made_from(recipe); },
+        [&] { return network::grow_dla(recipe.network->dla, run); },
         [](network::Cluster const& cluster) { return static_cast<std::int64_t>(cluster.cells.size() * sizeof(Cell)); });
 }
 
 namespace {
 
 // One arm of a cluster that grew by diffusion-limited aggregation, thinned and traced.
-SourceRivers rivers_of_cluster(recipe::Plan const& plan, StageLog& stage_log, Run const& run) {
-    recipe::Recipe const& recipe = plan.recipe;
+SourceRivers rivers_of_cluster(recipe::Recipe const& recipe, StageLog& stage_log, Run const& run) {
     recipe::NetworkRecipe const& wanted = *recipe.network;
     NetworkStatistics statistics;
     run.at(0.0, fmt::format("grow {} particles", wanted.dla.particles).c_str());
-    network::Cluster const cluster = stage_log.stage("grow", [&] { return cluster_of(plan, run); });
+    network::Cluster const cluster = stage_log.stage("grow", [&] { return cluster_of(recipe, run); });
     statistics.wide = cluster.stop == network::GrowthStop::radius;
     stage_log.say(fmt::format("{} particles  seed {}  radius {:.0f} cells{}", cluster.cells.size(), recipe.seed,
                               cluster.radius, statistics.wide ? ", where it stops" : ""));
@@ -240,10 +239,9 @@ SourceRivers rivers_of_tree(recipe::Plan const& plan, StageLog& stage_log, Run c
 }
 
 // Trees that grow from a coast or border inland until the land is full of them. Every outlet lies there.
-SourceRivers rivers_of_forest(recipe::Plan const& plan, StageLog& stage_log, Run const& run) {
-    recipe::Recipe const& recipe = plan.recipe;
+SourceRivers rivers_of_forest(recipe::Recipe const& recipe, recipe::ForestLand const& on, StageLog& stage_log,
+                              Run const& run) {
     recipe::ForestRecipe const& wanted = recipe.network->forest;
-    recipe::ForestLand const& on = *plan.forest;
     network::ForestParams params = wanted.growth;
     params.step_cells = wanted.spacing_cells / 2;
     params.seed = recipe.seed;
@@ -521,22 +519,18 @@ void warn_of_gaps(StreamNetwork const& network, Grid const& grid, double snapped
          .numbers = {{"least", least->gap_m, "m"}, {"most", most->gap_m, "m"}}});
 }
 
-/// The land bounded by a file's coastlines; without cells: there are none.
-Mask land_of_coastlines(recipe::Plan const& plan, StageLog& stage_log, Run const& run) {
-    if (!recipe::has_coastlines(plan)) {
-        return {};
-    }
+/// The land bounded by a file's coastlines.
+Mask land_of_coastlines(RiverLines const& lines, Grid const& grid, StageLog& stage_log, Run const& run) {
     RiverLines coast;
-    for (SecondaryLine const& line : plan.lines.secondary) {
+    for (SecondaryLine const& line : lines.secondary) {
         if (line.cause == LeftOut::coast) {
             RiverLine& one = coast.lines.emplace_back();
             one.feature = line.feature;
             one.vertices = line.vertices;
         }
     }
-    Grid const& grid = *plan.grid;
     network::LandAndSea divided =
-        stage_log.stage("sea", [&] { return network::land_and_sea(coast, plan.lines, grid, run); });
+        stage_log.stage("sea", [&] { return network::land_and_sea(coast, lines, grid, run); });
     stage_log.say(fmt::format("{:.3g} % of the grid, by {} coastlines",
                               100.0 * static_cast<double>(divided.sea_cells) / static_cast<double>(grid.cells()),
                               coast.lines.size()));
@@ -545,10 +539,10 @@ Mask land_of_coastlines(recipe::Plan const& plan, StageLog& stage_log, Run const
                         .amount = static_cast<double>(divided.beyond),
                         .text = fmt::format("rivers lie on both sides of the coastlines of {} ({} cells, and {} on the "
                                             "side that became sea)",
-                                            plan.lines.name, divided.behind, divided.beyond),
+                                            lines.name, divided.behind, divided.beyond),
                         .remedy = "--set network.lines.coastlines=none leaves the coastlines out",
                         .key = "network.lines.coastlines",
-                        .layer = plan.lines.name,
+                        .layer = lines.name,
                         .numbers = {{"on_land", static_cast<double>(divided.behind), "cells"}}});
     }
     return std::move(divided.land);
@@ -589,12 +583,11 @@ double noise_of(std::vector<std::vector<double>> const& arc_z) {
 }
 
 /// The file's heights. Where they rise downstream by noise they are lowered, which is told.
-ElevatedNetwork heights_without_noise(recipe::Plan const& plan, network::Imported const& imported,
-                                      StageLog& stage_log) {
+ElevatedNetwork heights_without_noise(RiverLines const& lines, network::Imported const& imported, StageLog& stage_log) {
     network::Lowered lowered = network::lower_rises(imported.network, imported.arc_z);
     double const most_m = *std::ranges::max_element(lowered.by_m);
     if (!(most_m > 0.0) || most_m > noise_of(imported.arc_z)) {
-        return network::take_file_heights({imported.network, imported.arc_z, {}}, plan.lines);
+        return network::take_file_heights({imported.network, imported.arc_z, {}}, lines);
     }
     std::int64_t arcs = 0;
     for (ArcId a = 0; a < imported.network.arc_count(); ++a) {
@@ -610,22 +603,21 @@ ElevatedNetwork heights_without_noise(recipe::Plan const& plan, network::Importe
                     .amount = most_m,
                     .text = fmt::format("heights in {} rise downstream in {} of {} arcs. They are lowered there, by "
                                         "{:.3g} m at most",
-                                        plan.lines.name, arcs, lowered.by_m.size(), most_m),
+                                        lines.name, arcs, lowered.by_m.size(), most_m),
                     .remedy = "\"findings\" in report.json lists these arcs (lowered)",
                     .key = "network.lines.path",
-                    .layer = plan.lines.name,
+                    .layer = lines.name,
                     .numbers = {{"arcs", static_cast<double>(arcs)}}});
     return std::move(lowered.network);
 }
 
 /// The heights of the file, if the recipe uses them.
-std::optional<ElevatedNetwork> heights_of_file(recipe::Plan const& plan, network::Imported const& imported,
-                                               StageLog& stage_log) {
-    recipe::Heights const heights = plan.recipe.network->heights;
+std::optional<ElevatedNetwork> heights_of_file(recipe::Heights heights, RiverLines const& lines,
+                                               network::Imported const& imported, StageLog& stage_log) {
     bool const or_straight =
         heights == recipe::Heights::soft || heights == recipe::Heights::fixed || heights == recipe::Heights::ends;
-    if (heights == recipe::Heights::file || (or_straight && plan.lines.has_z)) {
-        return heights_without_noise(plan, imported, stage_log);
+    if (heights == recipe::Heights::file || (or_straight && lines.has_z)) {
+        return heights_without_noise(lines, imported, stage_log);
     }
     return std::nullopt;
 }
@@ -633,7 +625,8 @@ std::optional<ElevatedNetwork> heights_of_file(recipe::Plan const& plan, network
 // The lines of a file.
 SourceRivers rivers_of_lines(recipe::Plan const& plan, StageLog& stage_log, Run const& run) {
     recipe::LinesRecipe const& wanted = plan.recipe.network->lines;
-    bool const may_end = recipe::has_coastlines(plan) || plan.recipe.network->inland != recipe::InlandEnds::carry;
+    bool const has_sea = has_coastlines(*plan.recipe.network, plan.lines);
+    bool const may_end = has_sea || plan.recipe.network->inland != recipe::InlandEnds::carry;
     network::ImportParams const params{.snap_m = wanted.snap_m,
                                        .orientation = wanted.orientation,
                                        .divergences = wanted.divergences,
@@ -660,28 +653,28 @@ SourceRivers rivers_of_lines(recipe::Plan const& plan, StageLog& stage_log, Run 
                                       "--set network.lines.orientation=as_drawn (or height, rank, topology)"));
     stage_log.find(imported.directions.doubts);
     std::vector<Hollow> const around = may_end ? std::vector<Hollow>() : hollows(imported.network, rivers.grid, run);
-    warn_of_gaps(imported.network, rivers.grid, wanted.snap_m, recipe::has_coastlines(plan), around, stage_log, run);
+    warn_of_gaps(imported.network, rivers.grid, wanted.snap_m, has_sea, around, stage_log, run);
     warn_of_hollows(imported.network, around, plan.lines.lakes, rivers.grid.cell_m, stage_log);
-    rivers.land = land_of_coastlines(plan, stage_log, run);
-    rivers.file_heights = heights_of_file(plan, imported, stage_log);
+    rivers.land = has_sea ? land_of_coastlines(plan.lines, rivers.grid, stage_log, run) : Mask{};
+    rivers.file_heights = heights_of_file(plan.recipe.network->heights, plan.lines, imported, stage_log);
     rivers.network = std::move(imported.network);
     return rivers;
 }
 
 /// Land without the gaps of DEMs: rivers end there as at the sea.
-Mask without_gaps(Mask land, recipe::Plan const& plan) {
+Mask without_gaps(Mask land, Raster<float> const& dem, Mask const& gaps) {
     auto const leave_out = [&](std::int64_t i, Grid const& grid) {
         land = land.cells() > 0 ? std::move(land) : Mask(grid, 1);
         land[i] = 0;
     };
-    for (std::int64_t i = 0; i < plan.raster.cells(); ++i) {
-        if (std::isnan(plan.raster[i])) {
-            leave_out(i, plan.raster.grid());
+    for (std::int64_t i = 0; i < dem.cells(); ++i) {
+        if (std::isnan(dem[i])) {
+            leave_out(i, dem.grid());
         }
     }
-    for (std::int64_t i = 0; i < plan.land.cells(); ++i) {
-        if (plan.land[i] == 0) {
-            leave_out(i, plan.land.grid());
+    for (std::int64_t i = 0; i < gaps.cells(); ++i) {
+        if (gaps[i] == 0) {
+            leave_out(i, gaps.grid());
         }
     }
     return land;
@@ -689,9 +682,9 @@ Mask without_gaps(Mask land, recipe::Plan const& plan) {
 
 SourceRivers rivers_by_source(recipe::Plan const& plan, StageLog& stage_log, Run const& run) {
     switch (plan.recipe.network->source) {
-    case recipe::Source::dla: return rivers_of_cluster(plan, stage_log, run);
+    case recipe::Source::dla: return rivers_of_cluster(plan.recipe, stage_log, run);
     case recipe::Source::tokunaga: return rivers_of_tree(plan, stage_log, run);
-    case recipe::Source::forest: return rivers_of_forest(plan, stage_log, run);
+    case recipe::Source::forest: return rivers_of_forest(plan.recipe, *plan.forest, stage_log, run);
     case recipe::Source::lines: break;
     }
     return rivers_of_lines(plan, stage_log, run);
@@ -701,7 +694,7 @@ SourceRivers rivers_by_source(recipe::Plan const& plan, StageLog& stage_log, Run
 
 SourceRivers rivers_of_source(recipe::Plan const& plan, StageLog& stage_log, Run const& run) {
     SourceRivers rivers = rivers_by_source(plan, stage_log, run);
-    rivers.land = without_gaps(std::move(rivers.land), plan);
+    rivers.land = without_gaps(std::move(rivers.land), plan.raster, plan.land);
     return rivers;
 }
 

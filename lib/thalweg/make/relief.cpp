@@ -38,15 +38,16 @@ TerrainRelief relief_of_dem(Raster<float> const& dem, Run const& run) {
 
 TerrainRelief relief_of_terrain(recipe::Recipe const& recipe, Terrain const& terrain,
                                 measure::Statistics const& statistics, Run const& run) {
-    Raster<float> const& dem = terrain.surface->dem;
-    TerrainRelief found{measure::relief(dem, *terrain.drainage, statistics, {}, run), std::nullopt};
+    Raster<float> const& dem = terrain.ground.dem;
+    TerrainRelief found{measure::relief(dem, terrain.water.drainage, statistics, {}, run), std::nullopt};
     double const asked = recipe.surface ? recipe.surface->equilibrium.mean_slope_deg.value_or(0.0) : 0.0;
     double const mean_slope = (asked > 0.0 ? asked : found.land.slopes.mean_deg) * (portable::pi / 180.0);
     if (recipe.network && !std::isnan(mean_slope)) {
-        std::vector<std::int64_t> cells = terrain.channels.cell; // side valleys grown by the terrain climb its slopes
-        if (!terrain.equilibrium) {
-            for (std::int64_t i = 0; i < terrain.valley.z.cells(); ++i) {
-                if (!std::isnan(terrain.valley.z[i])) {
+        std::vector<std::int64_t> cells =
+            terrain.bed.channels.cell; // side valleys grown by the terrain climb its slopes
+        if (!terrain.ground.equilibrium()) {
+            for (std::int64_t i = 0; i < terrain.bed.valley.z.cells(); ++i) {
+                if (!std::isnan(terrain.bed.valley.z[i])) {
                     cells.push_back(i);
                 }
             }

@@ -11,7 +11,7 @@
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/make/internal/lakes.hpp>
-#include <thalweg/make/internal/terrain.hpp>
+#include <thalweg/make/internal/raise_rivers.hpp>
 #include <thalweg/make/river_claims.hpp>
 #include <thalweg/network/channels/channels.hpp>
 #include <thalweg/network/elevation/known_heights.hpp>
@@ -27,14 +27,14 @@ struct Elevated {
     std::optional<flow::ContributingAreas> areas = {}; ///< as RaisedRivers
 };
 
-Elevated elevated(recipe::Plan const& plan, Planform const& planform, Run const& run) {
-    recipe::NetworkRecipe const& wanted = *plan.recipe.network;
+Elevated elevated(recipe::Recipe const& recipe, Planform const& planform, Run const& run) {
+    recipe::NetworkRecipe const& wanted = *recipe.network;
     if (planform.file_heights) {
         return {*planform.file_heights};
     }
     if (wanted.heights == recipe::Heights::rosgen) {
-        return {network::set_heights_by_type(planform.network, planform.types, {wanted.rosgen_slope, plan.recipe.seed},
-                                             run)};
+        return {
+            network::set_heights_by_type(planform.network, planform.types, {wanted.rosgen_slope, recipe.seed}, run)};
     }
     if (wanted.heights == recipe::Heights::graded) {
         flow::ContributingAreas areas = flow::areas_nearest(planform.network, planform.grid, run);
@@ -130,33 +130,31 @@ Valley with_sinks_lowest(Valley valley, std::vector<CellIndex> const& sinks, Ras
 }
 
 /// A warning of the cell in which rivers lie farthest below the DEM or, beside a lake with a level, above it.
-std::vector<Finding> far_from_dem(FindingKind kind, recipe::Plan const& plan, CellIndex cell, double by_m) {
-    if (!(by_m > plan.recipe.surface->max_cut_m)) {
+std::vector<Finding> far_from_dem(FindingKind kind, recipe::SurfaceRecipe const& wanted, Vec2 at, double by_m) {
+    if (!(by_m > wanted.max_cut_m)) {
         return {};
     }
     bool const is_cut = kind == FindingKind("deep_cut");
-    Vec2 const at = plan.raster.grid().centre(plan.raster.grid().at(cell));
     return {{.kind = kind,
              .where = at,
              .amount = by_m,
              .text = fmt::format("rivers are {} {} by up to {:.1f} m, at ({:.0f}, {:.0f})",
-                                 is_cut ? "cut into" : "dammed by lakes above", plan.recipe.surface->source, by_m, at.x,
-                                 at.y),
+                                 is_cut ? "cut into" : "dammed by lakes above", wanted.source, by_m, at.x, at.y),
              .key = is_cut ? "surface.max_cut" : "surface.lakes"}};
 }
 
 /// Rivers in the cells of the DEM that is the terrain.
-RaisedRivers laid_on_raster(recipe::Plan const& plan, Planform const& planform, Run const& run) {
-    WithLakes drawn = with_lakes(plan, planform, network::channels(planform.network, planform.grid, {}, run), run);
+RaisedRivers laid_on_raster(recipe::Recipe const& recipe, Raster<float> const& dem, Planform const& planform,
+                            Run const& run) {
+    WithLakes drawn = with_lakes(recipe, planform, network::channels(planform.network, planform.grid, {}, run), run);
     Channels& channels = drawn.rivers.channels;
     RaisedRivers laid;
-    laid.valley = bed_of(channels, plan.raster, plan.recipe.surface->source);
-    if (plan.recipe.network->inland == recipe::InlandEnds::sink) {
-        std::vector<NodeId> const sinks = inland_ends(planform.network, plan.raster);
-        laid.valley =
-            with_sinks_lowest(std::move(laid.valley), cells_of(sinks, planform.network, planform.grid), plan.raster);
+    laid.valley = bed_of(channels, dem, recipe.surface->source);
+    if (recipe.network->inland == recipe::InlandEnds::sink) {
+        std::vector<NodeId> const sinks = inland_ends(planform.network, dem);
+        laid.valley = with_sinks_lowest(std::move(laid.valley), cells_of(sinks, planform.network, planform.grid), dem);
     }
-    Raster<float> cut = plan.raster;
+    Raster<float> cut = dem;
     CellIndex deepest = 0;
     CellIndex most_raised = 0;
     double raised_m = 0.0;
@@ -172,10 +170,11 @@ RaisedRivers laid_on_raster(recipe::Plan const& plan, Planform const& planform, 
         cut[cell] = laid.valley.z[cell];
     }
     laid.network = network::elevate_from_dem(planform.network, channels, cut);
+    auto const centre_of = [&](CellIndex cell) { return dem.grid().centre(dem.grid().at(cell)); };
     laid.findings = std::move(drawn.rivers.notes);
     append(laid.findings, drawn.notes);
-    append(laid.findings, far_from_dem("deep_cut", plan, deepest, laid.statistics.max_lowered_m));
-    append(laid.findings, far_from_dem("high_lake", plan, most_raised, raised_m));
+    append(laid.findings, far_from_dem("deep_cut", *recipe.surface, centre_of(deepest), laid.statistics.max_lowered_m));
+    append(laid.findings, far_from_dem("high_lake", *recipe.surface, centre_of(most_raised), raised_m));
     if (!drawn.lakes.empty()) {
         laid.lakes = std::ssize(drawn.lakes);
         laid.channels = std::move(channels);
@@ -185,14 +184,15 @@ RaisedRivers laid_on_raster(recipe::Plan const& plan, Planform const& planform, 
 
 } // namespace
 
-RaisedRivers raise_rivers(recipe::Plan const& plan, Planform const& planform, StageLog& stage_log, Run const& run) {
-    if (recipe::heights_follow_raster(plan.recipe)) {
-        RaisedRivers laid = stage_log.stage("raise", [&] { return laid_on_raster(plan, planform, run); });
+RaisedRivers raise_rivers(recipe::Recipe const& recipe, Raster<float> const& dem, Planform const& planform,
+                          StageLog& stage_log, Run const& run) {
+    if (heights_follow_raster(recipe)) {
+        RaisedRivers laid = stage_log.stage("raise", [&] { return laid_on_raster(recipe, dem, planform, run); });
         stage_log.say(fmt::format("{} cells of rivers cut, by up to {:.3g} m", laid.statistics.lowered_cells,
                                   laid.statistics.max_lowered_m));
         return laid;
     }
-    Elevated raised = stage_log.stage("raise", [&] { return elevated(plan, planform, run); });
+    Elevated raised = stage_log.stage("raise", [&] { return elevated(recipe, planform, run); });
     network::Rasterised cells = network::rasterise(raised.network, planform.grid);
     return {std::move(raised.network), std::move(cells.valley),
             HeightsStatistics{raised.repair, cells.lowered_cells, cells.max_lowered_m}, std::move(raised.areas)};

@@ -32,11 +32,11 @@ std::vector<std::string> stages_of_rivers(Plan const& plan) {
         stages = plan.tree ? std::vector<std::string>{"grow", "embed"} : std::vector<std::string>{"read", "grow"};
         break;
     }
-    if (has_coastlines(plan)) {
+    if (has_coastlines(*plan.recipe.network, plan.lines)) {
         stages.emplace_back("sea");
     }
     stages.emplace_back("prune");
-    if (has_meanders(plan)) {
+    if (has_meanders(plan.recipe)) {
         stages.emplace_back("meander");
     }
     if (!heights_follow_terrain(plan.recipe)) {

@@ -272,18 +272,19 @@ void require_on_grid(FeaturePoints const& points, Grid const& grid, std::string 
     }
 }
 
-void require_skeleton_on_grid(Plan const& plan, Grid const& grid) {
-    if (!plan.recipe.skeleton) {
+void require_skeleton_on_grid(Recipe const& recipe, FeaturePoints const& points, RiverLines const& ridges,
+                              Grid const& grid) {
+    if (!recipe.skeleton) {
         return;
     }
-    require_on_grid(plan.points, grid, plan.recipe.skeleton->points);
-    for (RiverLine const& ridge : plan.ridge_lines.lines) {
+    require_on_grid(points, grid, recipe.skeleton->points);
+    for (RiverLine const& ridge : ridges.lines) {
         for (Vec3 const& p : ridge.vertices) {
             refuse_if<BadInput>(p.x < grid.west || p.x > grid.east() || p.y < grid.south() || p.y > grid.north,
                                 "skeleton.ridge_lines = \"{}\": feature {} reaches ({:.3f}, {:.3f}), off the grid, "
                                 "which reaches from ({:.3f}, {:.3f}) to ({:.3f}, {:.3f}); widen the grid or cut the "
                                 "line",
-                                plan.recipe.skeleton->ridge_lines, ridge.feature, p.x, p.y, grid.west, grid.south(),
+                                recipe.skeleton->ridge_lines, ridge.feature, p.x, p.y, grid.west, grid.south(),
                                 grid.east(), grid.north);
         }
     }

@@ -15,8 +15,8 @@ std::string state_in_words(Recipe const& decisive) {
     return write_recipe(decisive) + state_of_files(decisive);
 }
 
-std::string state_in_words(Plan const& plan, Recipe const& decisive) {
-    return state_in_words(decisive) + (plan.heights_of_file ? "\nheights of the file" : "");
+std::string state_in_words(Recipe const& decisive, bool heights_of_file) {
+    return state_in_words(decisive) + (heights_of_file ? "\nheights of the file" : "");
 }
 
 /// Rebuilt terrain ends at the gaps of the DEM that it is compared with.
@@ -72,16 +72,16 @@ std::string raster_made_from(Recipe const& recipe) {
     return state_in_words(decisive);
 }
 
-std::string cluster_made_from(Plan const& plan) {
-    Recipe recipe;
-    recipe.seed = plan.recipe.seed;
-    recipe.network.emplace().dla = plan.recipe.network->dla;
-    return write_recipe(recipe);
+std::string cluster_made_from(Recipe const& recipe) {
+    Recipe decisive;
+    decisive.seed = recipe.seed;
+    decisive.network.emplace().dla = recipe.network->dla;
+    return write_recipe(decisive);
 }
 
-std::string source_made_from(Plan const& plan) {
-    Recipe recipe = of_rivers(plan.recipe);
-    NetworkRecipe& rivers = *recipe.network;
+std::string source_made_from(Recipe const& recipe, bool heights_of_file) {
+    Recipe decisive = of_rivers(recipe);
+    NetworkRecipe& rivers = *decisive.network;
     NetworkRecipe const standard;
     rivers.prune_cells = standard.prune_cells;
     rivers.meander = standard.meander;
@@ -94,25 +94,25 @@ std::string source_made_from(Plan const& plan) {
     rivers.fill_space = standard.fill_space;
     rivers.support_cells = standard.support_cells;
     rivers.coast_m = standard.coast_m;
-    return state_in_words(plan, recipe);
+    return state_in_words(decisive, heights_of_file);
 }
 
-std::string planform_made_from(Plan const& plan) {
-    return state_in_words(plan, of_rivers(plan.recipe));
+std::string planform_made_from(Recipe const& recipe, bool heights_of_file) {
+    return state_in_words(of_rivers(recipe), heights_of_file);
 }
 
-std::string surface_made_from(Plan const& plan) {
-    Recipe recipe = plan.recipe;
-    recipe.patches.clear();
-    recipe.output = output_of_rivers(recipe);
-    if (recipe.surface) {
-        recipe.surface->drain = SurfaceRecipe{}.drain;
+std::string surface_made_from(Recipe const& recipe, bool heights_of_file) {
+    Recipe decisive = recipe;
+    decisive.patches.clear();
+    decisive.output = output_of_rivers(recipe);
+    if (decisive.surface) {
+        decisive.surface->drain = SurfaceRecipe{}.drain;
     }
-    if (recipe.network) {
-        recipe.network->fill_space = NetworkRecipe{}.fill_space;
-        recipe.network->support_cells = NetworkRecipe{}.support_cells;
+    if (decisive.network) {
+        decisive.network->fill_space = NetworkRecipe{}.fill_space;
+        decisive.network->support_cells = NetworkRecipe{}.support_cells;
     }
-    return state_in_words(plan, recipe);
+    return state_in_words(decisive, heights_of_file);
 }
 
 } // namespace thalweg::recipe

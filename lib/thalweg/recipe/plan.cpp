@@ -32,23 +32,20 @@
 namespace thalweg::recipe {
 namespace {
 
-// Whether rivers are grown for terrain in equilibrium: these should look natural, with meanders.
-bool grown_for_land(Plan const& plan) {
-    return plan.recipe.network->source != Source::lines && in_equilibrium(plan.recipe);
+/// Whether rivers are grown for terrain in equilibrium: these should look natural, with meanders.
+bool grown_for_land(Recipe const& recipe) {
+    return recipe.network->source != Source::lines && in_equilibrium(recipe);
 }
 
 } // namespace
 
-bool has_coastlines(Plan const& plan) {
-    NetworkRecipe const& rivers = *plan.recipe.network;
-    std::vector<SecondaryLine> const& lines = plan.lines.secondary;
+bool has_coastlines(NetworkRecipe const& rivers, RiverLines const& lines) {
     return rivers.source == Source::lines && rivers.lines.coastlines == Coastlines::sea &&
-           std::any_of(lines.begin(), lines.end(),
-                       [](SecondaryLine const& line) { return line.cause == LeftOut::coast; });
+           std::ranges::any_of(lines.secondary, [](SecondaryLine const& line) { return line.cause == LeftOut::coast; });
 }
 
-bool has_meanders(Plan const& plan) {
-    return *plan.recipe.network->meander != 0.0 || grown_for_land(plan);
+bool has_meanders(Recipe const& recipe) {
+    return *recipe.network->meander != 0.0 || grown_for_land(recipe);
 }
 
 bool heights_follow_terrain(Recipe const& recipe) {
@@ -481,7 +478,7 @@ Plan by_source(Recipe const& recipe, Raster<float> const& raster, StageLog& stag
 /// The default strength of meanders: less on a coast, where short rivers fall to the sea.
 double meander_of(Plan const& plan) {
     bool const has_sea = plan.forest && plan.forest->has_sea;
-    return !grown_for_land(plan) ? 0.0 : has_sea ? 0.3 : 1.0;
+    return !grown_for_land(plan.recipe) ? 0.0 : has_sea ? 0.3 : 1.0;
 }
 
 /// Resolves settings that depend on the source of the rivers, and their points.
@@ -536,7 +533,7 @@ void require_fit(Plan const& plan) {
     }
     check_memory(plan.grid->width, plan.grid->height);
     check_detail(plan.recipe, plan.grid->width, plan.grid->height);
-    require_skeleton_on_grid(plan, *plan.grid);
+    require_skeleton_on_grid(plan.recipe, plan.points, plan.ridge_lines, *plan.grid);
 }
 
 /// The DEM that is the surface, if there is one, on the grid that it settles.

@@ -21,10 +21,10 @@ namespace thalweg::recipe {
 // Predicates for the stages of a plan, common to make, which runs them, and the forecast, which lists them.
 
 /// Whether coastlines of the rivers' file bound the land.
-bool has_coastlines(Plan const& plan);
+bool has_coastlines(NetworkRecipe const& rivers, RiverLines const& lines);
 
 /// Whether rivers go through the meander stage.
-bool has_meanders(Plan const& plan);
+bool has_meanders(Recipe const& recipe);
 
 /// Whether rivers take their heights from the terrain.
 bool heights_follow_terrain(Recipe const& recipe);
@@ -72,7 +72,8 @@ Grid frame_land(FeaturePoints const& points, GridRecipe const& wanted);
 
 /// Throws BadInput naming the first point off the grid. name: the file, as in the recipe.
 void require_on_grid(FeaturePoints const& points, Grid const& grid, std::string const& name);
-/// The same for the points and ridges of a plan.
-void require_skeleton_on_grid(Plan const& plan, Grid const& grid);
+/// The same for the points and ridges of a recipe's files.
+void require_skeleton_on_grid(Recipe const& recipe, FeaturePoints const& points, RiverLines const& ridges,
+                              Grid const& grid);
 
 } // namespace thalweg::recipe

@@ -75,11 +75,11 @@ std::optional<Sea> around_islands(std::optional<Sea> sea, Mask const& land) {
 } // namespace
 
 std::optional<Sea> sea_of(make::Terrain const& terrain) {
-    return around_islands(terrain.equilibrium ? sea_beside(terrain.equilibrium->edge) : std::nullopt, terrain.land);
+    return around_islands(terrain.ground.equilibrium() ? sea_beside(terrain.ground.equilibrium()->edge) : std::nullopt,
+                          terrain.ground.land);
 }
 
-std::optional<Sea> sea_of(recipe::Plan const& plan, make::Planform const& planform) {
-    recipe::Recipe const& recipe = plan.recipe;
+std::optional<Sea> sea_of(recipe::Recipe const& recipe, make::Planform const& planform) {
     bool const is_cut = planform.land.cells() > 0;
     std::optional<surface::Edge> edge;
     if (recipe.surface && recipe.surface->method == recipe::Method::equilibrium) {

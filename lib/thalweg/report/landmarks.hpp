@@ -44,9 +44,9 @@ struct Sea {
 std::optional<Sea> sea_of(make::Terrain const& terrain);
 
 /// \internal
-/// \param planform rivers of the plan
+/// \param planform rivers of the recipe
 /// \return the sea of the terrain that will be made of them, as far as these tell
-std::optional<Sea> sea_of(recipe::Plan const& plan, make::Planform const& planform);
+std::optional<Sea> sea_of(recipe::Recipe const& recipe, make::Planform const& planform);
 
 /// \internal
 /// \param made recipe as make writes it: it names the edge of terrain in equilibrium

@@ -52,22 +52,22 @@ std::optional<LiveHeights> live_heights(Raster<float> const& dem, Grid const& gr
 std::string live_scene(make::Made const& made, std::string const& recipe, std::string const& command, Run const& run) {
     PageParams params = page_params_of(made, recipe);
     params.command = command;
-    if (made.terrain.surface) {
-        params.summits = summits(made.terrain.surface->dem, summits_named, run);
+    if (made.terrain.has_surface()) {
+        params.summits = summits(made.terrain.ground.dem, summits_named, run);
     }
     PageLines const lines = lines_of_page(made);
     std::optional<PageHeights> const heights =
-        made.terrain.surface ? page_values(made.terrain.surface->dem, run) : std::nullopt;
-    std::vector<std::uint8_t> const water = heights && made.terrain.drainage
-                                                ? page_water(*made.terrain.drainage, params.lakes, *heights)
+        made.terrain.has_surface() ? page_values(made.terrain.ground.dem, run) : std::nullopt;
+    std::vector<std::uint8_t> const water = heights && made.terrain.has_surface()
+                                                ? page_water(made.terrain.water.drainage, params.lakes, *heights)
                                                 : std::vector<std::uint8_t>{};
     return fmt::format(R"("data":{},"lines":"{}","water":"{}")", page_data(made, params, heights, lines),
                        io::packed(lines.bytes), water.empty() ? "" : io::packed(water));
 }
 
-make::Made rivers_to_be(recipe::Plan const& plan, make::Planform const& planform) {
+make::Made rivers_to_be(recipe::Recipe const& recipe, make::Planform const& planform) {
     make::Made made;
-    made.recipe = plan.recipe;
+    made.recipe = recipe;
     made.terrain.grid = planform.grid;
     StreamNetwork const& network = planform.network;
     ElevatedNetwork level{network, std::vector<double>(network.node_count(), 0.0), {}};
@@ -75,17 +75,17 @@ make::Made rivers_to_be(recipe::Plan const& plan, make::Planform const& planform
         level.arc_z.emplace_back(network.arc(a).line.size(), 0.0);
     }
     made.terrain.rivers = make::rivers_of(std::move(level), planform.types, planform.file.clues);
-    made.terrain.areas.us_area_m2.assign(network.arc_count(), 0.0);
-    made.terrain.areas.ds_area_m2.assign(network.arc_count(), 0.0);
-    made.terrain.areas.node_m2.assign(network.node_count(), 0.0);
+    made.terrain.water.areas.us_area_m2.assign(network.arc_count(), 0.0);
+    made.terrain.water.areas.ds_area_m2.assign(network.arc_count(), 0.0);
+    made.terrain.water.areas.node_m2.assign(network.node_count(), 0.0);
     return made;
 }
 
-std::optional<ClusterArms> cluster_arms(recipe::Plan const& plan, std::int64_t side, Run const& run) {
-    if (!plan.recipe.network || plan.recipe.network->source != recipe::Source::dla) {
+std::optional<ClusterArms> cluster_arms(recipe::Recipe const& recipe, std::int64_t side, Run const& run) {
+    if (!recipe.network || recipe.network->source != recipe::Source::dla) {
         return std::nullopt;
     }
-    network::Cluster const cluster = make::cluster_of(plan, run);
+    network::Cluster const cluster = make::cluster_of(recipe, run);
     Cell low = cluster.cells.front();
     Cell high = low;
     for (Cell const c : cluster.cells) {
@@ -99,7 +99,7 @@ std::optional<ClusterArms> cluster_arms(recipe::Plan const& plan, std::int64_t s
     arms.width = (wide + cells - 1) / cells;
     arms.height = (tall + cells - 1) / cells;
     std::vector<std::uint8_t> places(static_cast<std::size_t>(arms.width * arms.height));
-    arms.chosen = std::get<std::string>(*recipe::find_key("network.dla.branch")->take(plan.recipe));
+    arms.chosen = std::get<std::string>(*recipe::find_key("network.dla.branch")->take(recipe));
     auto const paint = [&](std::vector<Cell> const& branch, std::uint8_t arm) {
         for (Cell const c : branch) {
             auto const place = (c.row - low.row) / cells * arms.width + (c.col - low.col) / cells;

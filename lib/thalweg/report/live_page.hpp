@@ -61,7 +61,7 @@ std::string live_scene(make::Made const& made, std::string const& recipe, std::s
 /// \internal
 /// Rivers whose terrain is yet to be made, at height 0.
 /// \return for live_scene()
-make::Made rivers_to_be(recipe::Plan const& plan, make::Planform const& planform);
+make::Made rivers_to_be(recipe::Recipe const& recipe, make::Planform const& planform);
 
 /// The arms of a cluster in the four directions, of which one can become the rivers.
 struct ClusterArms {
@@ -76,6 +76,6 @@ struct ClusterArms {
 /// \internal
 /// \param side [places] of the longer side of the picture
 /// \return nothing where the rivers are no branch of a cluster
-std::optional<ClusterArms> cluster_arms(recipe::Plan const& plan, std::int64_t side, Run const& run = {});
+std::optional<ClusterArms> cluster_arms(recipe::Recipe const& recipe, std::int64_t side, Run const& run = {});
 
 } // namespace thalweg::report

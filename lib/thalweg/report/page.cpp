@@ -386,7 +386,7 @@ std::string html_text(std::string const& text) {
 
 PageLines lines_of_page(make::Made const& made) {
     StreamNetwork const& plan = made.terrain.rivers.network.planform;
-    RidgeLines const& ridges = made.terrain.ridges;
+    RidgeLines const& ridges = made.terrain.ground.ridges;
     std::vector<std::vector<Vec2>> ridges_in_plan;
     for (RidgeLine const& ridge : ridges.lines) {
         ridges_in_plan.push_back(in_plan(ridge.line));
@@ -401,7 +401,7 @@ PageLines lines_of_page(make::Made const& made) {
 
 std::string page(make::Made const& made, PageParams const& params, Run const& run) {
     std::optional<PageHeights> const heights =
-        made.terrain.surface ? page_heights(made.terrain.surface->dem, run) : std::nullopt;
+        made.terrain.has_surface() ? page_heights(made.terrain.ground.dem, run) : std::nullopt;
     run.check();
     PageLines const lines = lines_of_page(made);
     PageParts parts;
@@ -409,8 +409,8 @@ std::string page(make::Made const& made, PageParams const& params, Run const& ru
     parts.data = page_data(made, params, heights, lines);
     parts.heights = heights ? io::packed(heights->bytes) : "";
     parts.lines = io::packed(lines.bytes);
-    if (heights && made.terrain.drainage) {
-        std::vector<std::uint8_t> const water = page_water(*made.terrain.drainage, params.lakes, *heights);
+    if (heights && made.terrain.has_surface()) {
+        std::vector<std::uint8_t> const water = page_water(made.terrain.water.drainage, params.lakes, *heights);
         parts.water = water.empty() ? "" : io::packed(water);
     }
     return fill_page(page_template(), parts);
@@ -433,19 +433,18 @@ bool lies_on(ElevatedNetwork const& network, Grid const& grid) {
 make::Terrain terrain_of(Scene const& scene, Run const& run) {
     make::Terrain terrain;
     terrain.grid = scene.dem->grid();
-    terrain.surface.emplace();
-    terrain.surface->dem = *scene.dem;
-    terrain.drainage = flow::route(*scene.dem, run);
+    terrain.ground.dem = *scene.dem;
+    terrain.water.drainage = flow::route(*scene.dem, run);
     if (scene.network) {
         StreamNetwork const& network = scene.network->planform;
         terrain.rivers.network = *scene.network;
         terrain.rivers.orders = scene.orders;
         if (lies_on(*scene.network, terrain.grid)) {
-            terrain.areas = flow::areas_d8(network, *terrain.drainage, run);
+            terrain.water.areas = flow::areas_d8(network, terrain.water.drainage, run);
         } else {
-            terrain.areas.us_area_m2.assign(network.arc_count(), 0.0);
-            terrain.areas.ds_area_m2.assign(network.arc_count(), 0.0);
-            terrain.areas.node_m2.assign(network.node_count(), 0.0);
+            terrain.water.areas.us_area_m2.assign(network.arc_count(), 0.0);
+            terrain.water.areas.ds_area_m2.assign(network.arc_count(), 0.0);
+            terrain.water.areas.node_m2.assign(network.node_count(), 0.0);
         }
     }
     return terrain;
@@ -456,8 +455,8 @@ make::Assessment assessment_of(Scene const& scene, make::Terrain const& terrain,
     make::Assessment found;
     found.statistics = measure::statistics(*scene.dem, run);
     found.hypsometry = measure::hypsometry(*scene.dem, run);
-    found.pits = terrain.drainage->pits;
-    found.pit_volume_m3 = terrain.drainage->pit_volume_m3;
+    found.pits = terrain.water.drainage.pits;
+    found.pit_volume_m3 = terrain.water.drainage.pit_volume_m3;
     if (scene.network) {
         auto const topology =
             measure::check_topology(measure::as_file(terrain.rivers.network, terrain.rivers.orders), {}, run);
@@ -466,7 +465,7 @@ make::Assessment assessment_of(Scene const& scene, make::Terrain const& terrain,
     }
     found.laws = make::laws_of_terrain(terrain, found.statistics->cells, run);
     found.relief = io::ground_cell(scene.dem->grid()).side_m == scene.dem->grid().cell_m
-                       ? make::relief_of_dem(*scene.dem, *terrain.drainage, run)
+                       ? make::relief_of_dem(*scene.dem, terrain.water.drainage, run)
                        : make::relief_of_dem(*scene.dem, run);
     return found;
 }

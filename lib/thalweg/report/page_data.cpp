@@ -221,13 +221,13 @@ ordered_json arcs_object(make::Made const& t, PageLines const& lines) {
             {"length", length},
             {"z_up", z_up},
             {"z_down", z_down},
-            {"us_area", t.terrain.areas.us_area_m2},
-            {"ds_area", t.terrain.areas.ds_area_m2},
+            {"us_area", t.terrain.water.areas.us_area_m2},
+            {"ds_area", t.terrain.water.areas.ds_area_m2},
             {"n", n}};
 }
 
 ordered_json ridges_object(make::Made const& t, PageLines const& lines) {
-    if (t.terrain.ridges.lines.empty()) {
+    if (t.terrain.ground.ridges.lines.empty()) {
         return nullptr;
     }
     auto const first =
@@ -319,14 +319,14 @@ ordered_json sea_object(std::optional<Sea> const& sea) {
 }
 
 ordered_json curve_object(make::Made const& t) {
-    if (!t.terrain.surface || !t.recipe.surface || t.terrain.surface->increments.empty()) {
+    if (!t.terrain.has_surface() || !t.recipe.surface || t.terrain.ground.dilated().increments.empty()) {
         return nullptr;
     }
     std::vector<ordered_json> points;
     double sum = 0.0;
-    for (std::size_t i = 0; i < t.terrain.surface->increments.size(); ++i) {
-        sum += t.terrain.surface->increments[i];
-        points.push_back({i + 1, to_millimetres(t.terrain.surface->increments[i]), to_millimetres(sum)});
+    for (std::size_t i = 0; i < t.terrain.ground.dilated().increments.size(); ++i) {
+        sum += t.terrain.ground.dilated().increments[i];
+        points.push_back({i + 1, to_millimetres(t.terrain.ground.dilated().increments[i]), to_millimetres(sum)});
     }
     return {{"name", t.recipe.surface->dilate.increment.increment}, {"points", thinned(points)}};
 }
@@ -362,8 +362,8 @@ private:
 
 /// The target of [statistics] with the name of a residual.
 std::optional<double> target_value(make::Made const& t, char const* name) {
-    if (t.terrain.projection) {
-        for (fractal::Residual const& r : t.terrain.projection->residuals) {
+    if (t.terrain.ground.matched) {
+        for (fractal::Residual const& r : t.terrain.ground.matched->projection.residuals) {
             if (r.name == name) {
                 return r.asked;
             }
@@ -379,10 +379,10 @@ void add_land(make::Made const& t, Figures& figures) {
     figures.add("lowest height", target_value(t, "min"), to_millimetres(s.min.z), "m");
     figures.add("highest height", target_value(t, "max"), to_millimetres(s.max.z), "m");
     figures.add("relief, highest less lowest", to_millimetres(s.max.z - s.min.z), "m");
-    if (!t.terrain.surface->increments.empty() && t.recipe.surface) {
+    if (!t.terrain.ground.dilated().increments.empty() && t.recipe.surface) {
         double const relief = t.recipe.surface->dilate.relief_m;
         figures.add("greatest rise above the valley", relief > 0.0 ? std::optional(relief) : std::nullopt,
-                    to_millimetres(t.terrain.surface->rise_m), "m");
+                    to_millimetres(t.terrain.ground.dilated().rise_m), "m");
     }
     figures.add("correlation length along rows", target_value(t, "lx_cells"), s.lx.cells, "cells");
     figures.add("correlation length along columns", target_value(t, "ly_cells"), s.ly.cells, "cells");
@@ -529,14 +529,14 @@ ordered_json notes_array(make::Made const& t, std::vector<Finding> const& findin
             out.push_back(finding.text);
         }
     }
-    if (!t.terrain.surface) {
+    if (!t.terrain.has_surface()) {
         out.push_back("the recipe has no [surface]: the page shows the rivers alone");
     }
-    if (t.terrain.fine_forms_cells > 0.0) {
+    if (t.terrain.ground.matched && t.terrain.ground.matched->fine_forms_cells > 0.0) {
         out.push_back(
             fmt::format("the statistics cannot be reached from this skeleton alone: forms finer than about {} "
                         "cells come from a Gaussian surface",
-                        t.terrain.fine_forms_cells));
+                        t.terrain.ground.matched->fine_forms_cells));
     }
     if (heights && heights->cells > 1) {
         out.push_back(fmt::format("heights are shown as means of {0}x{0} cells", heights->cells));

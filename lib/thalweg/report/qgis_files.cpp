@@ -93,7 +93,7 @@ void write_qgis_files(make::Made const& made, std::string const& title, io::Outp
     using Kind = io::QgisLayer::Kind;
     HeightUnit const unit = made.recipe.output.units;
     std::string const unit_name = name_of(unit);
-    bool const has_sea = made.terrain.surface && sea_of(made.terrain);
+    bool const has_sea = made.terrain.has_surface() && sea_of(made.terrain);
     Layers layers(out);
     layers.vector("Nodes", "network.gpkg", "nodes");
     layers.vector("Rivers", "network.gpkg", "arcs", true, true);
@@ -106,9 +106,9 @@ void write_qgis_files(make::Made const& made, std::string const& title, io::Outp
     layers.vector("Catchments", "catchments.gpkg", "catchments", false);
     layers.vector("Contours", "contours.gpkg", "contours");
     if (layers.has("tin.2dm")) {
-        Tin const tin = make::in_unit(*made.terrain.tin, unit);
+        Tin const tin = make::in_unit(made.terrain.ground.tin, unit);
         layers.styled(Kind::mesh, "TIN", "tin.2dm", io::mesh_style(tints_of(heights_of(tin)), unit_name),
-                      !made.terrain.surface, true, "Height");
+                      !made.terrain.has_surface(), true, "Height");
     }
     if (layers.has("area_d8.tif")) {
         double const cell_m2 = made.terrain.grid.cell_m * made.terrain.grid.cell_m;
@@ -121,7 +121,7 @@ void write_qgis_files(make::Made const& made, std::string const& title, io::Outp
         }
     }
     if (layers.has("dem.tif")) {
-        if (auto heights = height_range(made.terrain.surface->dem)) {
+        if (auto heights = height_range(made.terrain.ground.dem)) {
             double const metres = metres_in(unit);
             heights->first /= metres;
             heights->second /= metres;

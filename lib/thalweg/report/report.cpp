@@ -183,7 +183,7 @@ ordered_json network_object(make::Made const& t) {
         strahler = std::max(strahler, s);
     }
     auto const arcs = static_cast<std::int64_t>(plan.arc_count());
-    network::HeightReport const& h = t.terrain.heights.repair;
+    network::HeightReport const& h = t.terrain.bed.heights.repair;
     return {{"arcs", arcs},
             {"nodes", plan.node_count()},
             {"outlets", plan.outlets().size()},
@@ -201,8 +201,9 @@ ordered_json network_object(make::Made const& t) {
             {"uphill_before_repair",
              {{"arcs", h.uphill_arcs}, {"length_m", h.uphill_length_m}, {"max_rise_m", h.max_rise_m}}},
             {"lifted", {{"count", h.lifted}, {"max_m", h.max_lift_m}, {"rms_m", h.rms_lift_m}}},
-            {"lowered_cells", {{"count", t.terrain.heights.lowered_cells}, {"max_m", t.terrain.heights.max_lowered_m}}},
-            {"area_from", t.terrain.areas.source},
+            {"lowered_cells",
+             {{"count", t.terrain.bed.heights.lowered_cells}, {"max_m", t.terrain.bed.heights.max_lowered_m}}},
+            {"area_from", t.terrain.water.areas.source},
             {"horton", horton(t.assessment.laws.network ? t.assessment.laws.network->horton : measure::HortonLaws{})},
             {"tokunaga", tokunaga_object(t)},
             {"laws", t.assessment.laws.network ? laws_object(*t.assessment.laws.network) : ordered_json(nullptr)}};
@@ -257,7 +258,7 @@ ordered_json statistics_object(fractal::MatchedDem const& p) {
 
 /// Factor from the recipe's increments to those used.
 double metres_per_unit(make::Made const& t) {
-    std::vector<double> const& used = t.terrain.surface->increments;
+    std::vector<double> const& used = t.terrain.ground.dilated().increments;
     std::vector<double> const named =
         surface::increments(static_cast<std::int64_t>(used.size()), t.recipe.surface->dilate.increment);
     auto const greatest =
@@ -333,9 +334,9 @@ void add_dem(make::Made const& t, ordered_json& report) {
     if (t.assessment.statistics) {
         report["dem"] = dem(*t.assessment.statistics);
         report["dem"]["hypsometric_integral"] = t.assessment.hypsometry->integral;
-        if (!t.terrain.surface->increments.empty()) {
-            report["dem"]["flat_share"] = t.terrain.surface->flat_share;
-            report["dem"]["levels"] = t.terrain.surface->levels;
+        if (!t.terrain.ground.dilated().increments.empty()) {
+            report["dem"]["flat_share"] = t.terrain.ground.dilated().flat_share;
+            report["dem"]["levels"] = t.terrain.ground.dilated().levels;
             report["dem"]["metres_per_unit"] = metres_per_unit(t);
         }
         report["dem"]["pit_cells"] = t.assessment.pits;
@@ -350,9 +351,9 @@ void add_dem(make::Made const& t, ordered_json& report) {
 }
 
 void add_drainage(make::Made const& t, ordered_json& report) {
-    if (t.terrain.drained) {
-        report["drained"] = {{"banks", change_object(t.terrain.drained->banks)},
-                             {"depressions", change_object(t.terrain.drained->depressions)}};
+    if (t.terrain.water.is_conditioned) {
+        report["drained"] = {{"banks", change_object(t.terrain.water.banks)},
+                             {"depressions", change_object(t.terrain.water.depressions)}};
     }
     if (t.assessment.certificate) {
         report["certificate"] = certificate_object(*t.assessment.certificate);
@@ -414,11 +415,12 @@ void add_lines(make::Made const& t, ordered_json& report) {
     if (t.assessment.given_features) {
         report["features"] = features_object(*t.assessment.given_features);
     }
-    if (t.terrain.tin) {
-        report["tin"] = {{"vertices", t.terrain.tin->vertices.size()}, {"triangles", t.terrain.tin->triangles.size()}};
+    if (!t.terrain.ground.tin.vertices.empty()) {
+        report["tin"] = {{"vertices", t.terrain.ground.tin.vertices.size()},
+                         {"triangles", t.terrain.ground.tin.triangles.size()}};
     }
-    if (!t.terrain.ridges.lines.empty()) {
-        report["ridges"] = {{"count", t.terrain.ridges.lines.size()}};
+    if (!t.terrain.ground.ridges.lines.empty()) {
+        report["ridges"] = {{"count", t.terrain.ground.ridges.lines.size()}};
         if (t.assessment.surface_ridges) {
             report["ridges"]["cells"] = t.assessment.surface_ridges->ridge_cells;
             report["ridges"]["extracted"] = {{"area_cells", t.assessment.surface_ridges->threshold_cells},
@@ -429,16 +431,17 @@ void add_lines(make::Made const& t, ordered_json& report) {
 
 /// Adds the statistics of the terrain's construction.
 void add_statistics(make::Made const& t, ordered_json& report) {
-    if (t.terrain.equilibrium) {
-        make::EquilibriumStatistics const& e = *t.terrain.equilibrium;
+    make::Ground const& ground = t.terrain.ground;
+    if (make::Equilibrium const* const found = ground.equilibrium()) {
+        make::Equilibrium const& e = *found;
         report["equilibrium"] = {{"channel_cells", e.channel_cells},
-                                 {"lakes", t.terrain.lakes},
+                                 {"lakes", t.terrain.bed.lakes},
                                  {"shortened_cells", e.shortened_cells},
                                  {"walled_cells", e.walled_cells},
                                  {"lowered", {{"max_m", e.max_lowered_m}, {"p95_m", e.p95_lowered_m}}},
                                  {"rise", e.rise},
-                                 {"side_valleys", t.terrain.side_valleys.grown},
-                                 {"side_valleys_left_out", t.terrain.side_valleys.left_out},
+                                 {"side_valleys", t.terrain.bed.grown},
+                                 {"side_valleys_left_out", t.terrain.bed.left_out},
                                  {"in_region", e.in_region},
                                  {"inflows", ordered_json::parse(inflows_json(t.terrain.grid, e.inflows))}};
         if (e.like) {
@@ -448,24 +451,23 @@ void add_statistics(make::Made const& t, ordered_json& report) {
                                              {"correlation", e.like->correlation},
                                              {"roughness", e.like->roughness}};
         }
-        if (e.rebuilt) {
-            report["equilibrium"]["rebuilt"] = {{"source_km2", e.rebuilt->source_km2},
-                                                {"river_spacing_m", e.rebuilt->river_spacing_m},
-                                                {"river_concavity", e.rebuilt->river_concavity},
-                                                {"smooth_slope_deg", e.rebuilt->smooth_slope_deg}};
+        if (auto const* const rebuilt = std::get_if<make::Rebuilt>(&ground.how)) {
+            report["equilibrium"]["rebuilt"] = {{"source_km2", rebuilt->source_km2},
+                                                {"river_spacing_m", rebuilt->river_spacing_m},
+                                                {"river_concavity", rebuilt->river_concavity},
+                                                {"smooth_slope_deg", rebuilt->smooth_slope_deg}};
         }
     }
-    if (t.terrain.diffusion) {
-        report["diffusion"] = {{"iterations", t.terrain.diffusion->iterations},
-                               {"residual", t.terrain.diffusion->residual}};
+    if (auto const* const diffused = std::get_if<make::Diffused>(&ground.how)) {
+        report["diffusion"] = {{"iterations", diffused->iterations}, {"residual", diffused->residual}};
     }
-    for (make::PatchStatistics const& p : t.terrain.patches) {
+    for (make::PatchStatistics const& p : t.terrain.ground.patches) {
         report["patches"].push_back(
             {{"cells", p.cells}, {"kept", p.kept}, {"seam_max_m", p.seam_max_m}, {"seam_rms_m", p.seam_rms_m}});
     }
-    if (t.terrain.projection) {
-        report["statistics"] = statistics_object(*t.terrain.projection);
-        report["statistics"]["fine_forms_cells"] = t.terrain.fine_forms_cells;
+    if (t.terrain.ground.matched) {
+        report["statistics"] = statistics_object(t.terrain.ground.matched->projection);
+        report["statistics"]["fine_forms_cells"] = t.terrain.ground.matched->fine_forms_cells;
     }
 }
 

@@ -53,7 +53,7 @@ std::vector<std::string> files_left_in(std::string const& folder) {
 }
 
 double relief_m(make::Made const& t) {
-    auto const heights = height_range(t.terrain.surface->dem);
+    auto const heights = height_range(t.terrain.ground.dem);
     return heights ? heights->second - heights->first : 0.0;
 }
 
@@ -73,10 +73,10 @@ double contour_interval_m(make::Made const& t) {
 PageParams page_params_of(make::Made const& made, std::string recipe) {
     PageParams params;
     params.recipe = std::move(recipe);
-    if (made.terrain.surface) {
+    if (made.terrain.has_surface()) {
         params.contour_interval_m = contour_interval_m(made);
         params.sea = sea_of(made.terrain);
-        params.lakes = make::lake_cells(made.terrain.channels);
+        params.lakes = make::lake_cells(made.terrain.bed.channels);
     }
     return params;
 }
@@ -91,8 +91,8 @@ void write_in_schema(make::Made const& t, io::OutputFolder const& out, Run const
         split =
             network::split_confluences(t.terrain.rivers.network, {schema.most_upstream, t.terrain.grid.cell_m}, run);
     }
-    std::vector<double> us_area_m2 = t.terrain.areas.us_area_m2;
-    std::vector<double> ds_area_m2 = t.terrain.areas.ds_area_m2;
+    std::vector<double> us_area_m2 = t.terrain.water.areas.us_area_m2;
+    std::vector<double> ds_area_m2 = t.terrain.water.areas.ds_area_m2;
     make::add_pieces(split.pieces, us_area_m2, ds_area_m2);
     NetworkOrders const orders = make::order_rivers(split.network.planform, t.terrain.rivers.clues);
     std::vector<double> const node_area_m2 = make::node_areas(split.network.planform, us_area_m2, ds_area_m2);
@@ -106,18 +106,18 @@ void write_in_schema(make::Made const& t, io::OutputFolder const& out, Run const
 template <class Write> void with_tables(make::Made const& t, Write const& write) {
     std::map<std::string, std::string> const about = {{"version", version()},
                                                       {"seed", fmt::format("{}", t.recipe.seed)},
-                                                      {"area_from", t.terrain.areas.source},
+                                                      {"area_from", t.terrain.water.areas.source},
                                                       {"height_unit", name_of(t.recipe.output.units)}};
     auto const user = make::user_data(t, t.terrain.rivers.network.planform);
     io::NetworkTables const tables{t.terrain.rivers.network,
                                    t.terrain.rivers.orders,
-                                   t.terrain.areas.us_area_m2,
-                                   t.terrain.areas.ds_area_m2,
-                                   t.terrain.areas.node_m2,
+                                   t.terrain.water.areas.us_area_m2,
+                                   t.terrain.water.areas.ds_area_m2,
+                                   t.terrain.water.areas.node_m2,
                                    t.terrain.grid.crs,
                                    about,
                                    t.terrain.rivers.types.braided.empty() ? nullptr : &t.terrain.rivers.types.braided,
-                                   &t.terrain.ridges,
+                                   &t.terrain.ground.ridges,
                                    t.assessment.given ? &t.assessment.given->secondary : nullptr,
                                    user ? &*user : nullptr,
                                    t.recipe.output.units,
@@ -134,9 +134,9 @@ void write_network(make::Made const& t, io::OutputFolder const& out, Run const& 
     if (t.recipe.output.schema != io::Schema::native) {
         write_in_schema(t, out, run);
     }
-    io::write_mask(make::river_mask(t.terrain.valley), out.path("network.tif"), run);
-    if (t.terrain.lakes > 0) {
-        io::write_mask(make::lake_cells(t.terrain.channels), out.path("lakes.tif"), run);
+    io::write_mask(make::river_mask(t.terrain.bed.valley), out.path("network.tif"), run);
+    if (t.terrain.bed.lakes > 0) {
+        io::write_mask(make::lake_cells(t.terrain.bed.channels), out.path("lakes.tif"), run);
     }
 }
 
@@ -153,14 +153,14 @@ void write_areas(make::WaterAreas const& areas, io::OutputFolder const& out, Run
 
 void write_tin(make::Made const& t, io::OutputFolder const& out, Run const& run) {
     HeightUnit const unit = t.recipe.output.units;
-    Tin const tin = make::in_unit(*t.terrain.tin, unit);
+    Tin const tin = make::in_unit(t.terrain.ground.tin, unit);
     io::write_tin(tin, t.terrain.grid.crs, out.path("tin.2dm"), io::TinFormat::mesh_2dm, unit, run);
     io::write_tin(tin, t.terrain.grid.crs, out.path("tin.ply"), io::TinFormat::ply, unit, run);
 }
 
 void write_dem(make::Made const& t, io::OutputFolder const& out, Run const& run) {
     HeightUnit const unit = t.recipe.output.units;
-    Raster<float> const& dem = t.terrain.surface->dem;
+    Raster<float> const& dem = t.terrain.ground.dem;
     io::write_dem(unit == HeightUnit::metre ? dem : make::in_unit(dem, unit), out.path("dem.tif"), unit, run);
 }
 
@@ -189,12 +189,12 @@ public:
     /// In metres, for the map.
     std::vector<io::ContourLine> const& contours(Run const& run) {
         std::call_once(contours_made_,
-                       [&] { contours_ = io::contours(made_.terrain.surface->dem, contour_interval_m(made_), run); });
+                       [&] { contours_ = io::contours(made_.terrain.ground.dem, contour_interval_m(made_), run); });
         return contours_;
     }
     std::vector<Summit> const& summits(Run const& run) {
         std::call_once(summits_made_,
-                       [&] { summits_ = report::summits(made_.terrain.surface->dem, summits_named, run); });
+                       [&] { summits_ = report::summits(made_.terrain.ground.dem, summits_named, run); });
         return summits_;
     }
 
@@ -207,13 +207,14 @@ private:
 };
 
 draw::Picture map_with(make::Made const& t, SurfaceParts& parts, draw::MapParams map, Run const& run) {
-    Raster<float> const& dem = t.terrain.surface->dem;
+    Raster<float> const& dem = t.terrain.ground.dem;
     Raster<std::uint8_t> const shade = io::hillshade(dem);
-    draw::MapSheet sheet{dem, shade, network_of(t), orders_of(t), {}, &t.terrain.ridges, t.terrain.areas.ds_area_m2};
+    draw::MapSheet sheet{
+        dem, shade, network_of(t), orders_of(t), {}, &t.terrain.ground.ridges, t.terrain.water.areas.ds_area_m2};
     for (auto const& [z, line] : parts.contours(run)) {
         sheet.contours.emplace_back(z, line);
     }
-    Mask const lakes = t.terrain.lakes > 0 ? make::lake_cells(t.terrain.channels) : Mask{};
+    Mask const lakes = t.terrain.bed.lakes > 0 ? make::lake_cells(t.terrain.bed.channels) : Mask{};
     sheet.lakes = &lakes;
     map.contour_interval_m = contour_interval_m(t);
     return draw_land(std::move(sheet), sea_of(t.terrain), parts.summits(run), map);
@@ -228,16 +229,16 @@ void write_contours(make::Made const& t, SurfaceParts& parts, io::OutputFolder c
     if (unit == HeightUnit::metre) {
         write(parts.contours(run));
     } else {
-        write(io::contours(make::in_unit(t.terrain.surface->dem, unit), step, run));
+        write(io::contours(make::in_unit(t.terrain.ground.dem, unit), step, run));
     }
 }
 
 draw::Picture curve_of(make::Made const& t) {
-    return draw::curve(t.terrain.surface->increments, {t.recipe.surface->dilate.increment.increment});
+    return draw::curve(t.terrain.ground.dilated().increments, {t.recipe.surface->dilate.increment.increment});
 }
 
 draw::Picture wireframe_of(make::Made const& t, std::string const& title) {
-    draw::WireframeScene const land{t.terrain.surface->dem, network_of(t), orders_of(t)};
+    draw::WireframeScene const land{t.terrain.ground.dem, network_of(t), orders_of(t)};
     draw::WireframeParams wireframe;
     wireframe.title = title;
     wireframe.azimuth_deg = draw::azimuth_up_valley(land);
@@ -247,7 +248,7 @@ draw::Picture wireframe_of(make::Made const& t, std::string const& title) {
 draw::Picture sections_of(make::Made const& t, std::string const& title) {
     draw::SectionsParams sections;
     sections.title = title;
-    return draw::sections(t.terrain.surface->dem, network_of(t), orders_of(t), sections);
+    return draw::sections(t.terrain.ground.dem, network_of(t), orders_of(t), sections);
 }
 
 draw::Picture profile_of(make::Made const& t, std::string const& title) {
@@ -266,13 +267,13 @@ public:
 
     /// Begins with the files that need no assessment.
     void begin() {
-        if (made_.terrain.surface) {
+        if (made_.terrain.has_surface()) {
             begin_surface();
         }
         if (made_.recipe.network && writes(recipe::OutputFiles::pictures)) {
             add_picture("write_profile", "profile.svg", [this] { return profile_of(made_, title_); });
         }
-        if (made_.terrain.tin && made_.recipe.skeleton && made_.recipe.skeleton->tin &&
+        if (!made_.terrain.ground.tin.vertices.empty() && made_.recipe.skeleton && made_.recipe.skeleton->tin &&
             writes(recipe::OutputFiles::tin)) {
             add("write_tin", [this](Run const& run) { write_tin(made_, out_, run); });
         }
@@ -288,7 +289,7 @@ public:
         if (writes(recipe::OutputFiles::page)) {
             add("write_page", [this, recipe_toml](Run const& run) {
                 PageParams params = page_params_of(made_, recipe_toml);
-                if (made_.terrain.surface) {
+                if (made_.terrain.has_surface()) {
                     params.summits = parts_.summits(run);
                 }
                 io::write_text(out_.path("report.html"), page(made_, params, run));
@@ -336,7 +337,7 @@ private:
             add("write_contours", [this](Run const& run) { write_contours(made_, parts_, out_, run); });
         }
         if (writes(recipe::OutputFiles::pictures)) {
-            if (!made_.terrain.surface->increments.empty()) {
+            if (!made_.terrain.ground.dilated().increments.empty()) {
                 add_picture("write_curve", "curve.svg", [this] { return curve_of(made_); });
             }
             add_picture("write_wireframe", "wireframe.svg", [this] { return wireframe_of(made_, title_); });
@@ -372,14 +373,14 @@ private:
 } // namespace
 
 draw::Picture differences_against(make::Against const& against, make::Terrain const& terrain, int width_px) {
-    Raster<std::uint8_t> const shade = io::hillshade(terrain.surface->dem);
+    Raster<std::uint8_t> const shade = io::hillshade(terrain.ground.dem);
     draw::ComparisonParams params;
     params.width_px = width_px;
     return draw::differences({shade, shade, against.difference, against.divides_of_dem, against.divides}, params);
 }
 
 draw::Picture comparison_against(make::Against const& against, make::Terrain const& terrain, std::string const& title) {
-    Raster<float> const& dem = terrain.surface->dem;
+    Raster<float> const& dem = terrain.ground.dem;
     draw::ComparisonParams params;
     params.title = title;
     params.dem = against.dem;
@@ -394,7 +395,7 @@ void write_rivers(make::Made const& made, std::string const& path, Run const& ru
 }
 
 draw::Picture draw_map(make::Made const& made, DrawMapParams const& params, Run const& run) {
-    refuse_if<BadInput>(!made.terrain.surface,
+    refuse_if<BadInput>(!made.terrain.has_surface(),
                         "report.draw_map: the recipe asks for rivers alone: there is no terrain to draw");
     draw::MapParams map;
     map.title = params.title.value_or(recipe::title_of(made.recipe));

@@ -132,11 +132,11 @@ void Engine::run(Job const& job, std::stop_token const& stop) {
             findings = make::findings_of(*made);
             tell(watcher_.found, job, findings);
             if (job.recipe.network) {
-                tell(watcher_.rivers, job, made->plan, made->planform, run);
+                tell(watcher_.rivers, job, made->plan.recipe, made->planform, run);
             }
-            if (made->terrain.surface) {
+            if (made->terrain.has_surface()) {
                 tell(watcher_.heights, job,
-                     Heights{made->terrain.surface->dem, made->terrain.grid, report::sea_of(made->terrain), true});
+                     Heights{made->terrain.ground.dem, made->terrain.grid, report::sea_of(made->terrain), true});
             }
         } else {
             auto const fresh = std::make_shared<make::Made>();
@@ -144,13 +144,13 @@ void Engine::run(Job const& job, std::stop_token const& stop) {
             fresh->planform = make::make_planform(fresh->plan, run);
             tell(watcher_.found, job, findings);
             if (job.recipe.network) {
-                tell(watcher_.rivers, job, fresh->plan, fresh->planform, run);
+                tell(watcher_.rivers, job, fresh->plan.recipe, fresh->planform, run);
             }
             run.preview = [&](Raster<float> const& dem, bool is_finished) {
                 run.check();
                 tell(watcher_.heights, job,
                      Heights{dem, job.recipe.network ? fresh->planform.grid : *fresh->plan.grid,
-                             report::sea_of(fresh->plan, fresh->planform), is_finished});
+                             report::sea_of(fresh->plan.recipe, fresh->planform), is_finished});
             };
             fresh->terrain = make::make_terrain(fresh->plan, fresh->planform, run);
             run.preview = nullptr;

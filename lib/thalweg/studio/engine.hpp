@@ -47,7 +47,7 @@ struct Watcher {
     /// \param findings all of the job so far, again after each stage that may find something
     std::function<void(Job const&, std::vector<Finding> const& findings)> found = {};
     /// Before their land. \param run of the job
-    std::function<void(Job const&, recipe::Plan const&, make::Planform const&, Run const& run)> rivers = {};
+    std::function<void(Job const&, recipe::Recipe const&, make::Planform const&, Run const& run)> rivers = {};
     std::function<void(Job const&, Heights const&)> heights = {};
     std::function<void(Job const&, make::Made const&)> made = {}; ///< not yet measured
     /// The end of a job.

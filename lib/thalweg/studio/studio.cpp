@@ -393,8 +393,8 @@ private:
     Watcher watcher() {
         return {.at = [this](Job const& job, std::string_view stage, double share) { tell_share(job, stage, share); },
                 .found = [this](Job const& job, std::vector<Finding> const& found) { show_findings(job, found); },
-                .rivers = [this](Job const& job, recipe::Plan const& plan, make::Planform const& planform,
-                                 Run const& run) { show_rivers(job, plan, planform, run); },
+                .rivers = [this](Job const& job, recipe::Recipe const& recipe, make::Planform const& planform,
+                                 Run const& run) { show_rivers(job, recipe, planform, run); },
                 .heights = [this](Job const& job, Heights const& heights) { show_heights(job, heights); },
                 .made = [this](Job const& job, make::Made const& made) { show_scene(job, "land", made); },
                 .measured =
@@ -431,11 +431,11 @@ private:
         }
     }
 
-    void show_rivers(Job const& job, recipe::Plan const& plan, make::Planform const& planform, Run const& run) {
+    void show_rivers(Job const& job, recipe::Recipe const& recipe, make::Planform const& planform, Run const& run) {
         constexpr std::int64_t side = 256;
         std::string scene = scene_message(
-            job, "rivers", report::live_scene(report::rivers_to_be(plan, planform), job.toml, command(), run));
-        std::string cluster = cluster_message(job, report::cluster_arms(plan, side, run));
+            job, "rivers", report::live_scene(report::rivers_to_be(recipe, planform), job.toml, command(), run));
+        std::string cluster = cluster_message(job, report::cluster_arms(recipe, side, run));
         ShownRivers shown{job.toml,
                           planform.grid,
                           planform.network,

@@ -8,21 +8,23 @@
 #include <thalweg/core/features.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/river_files.hpp>
-#include <thalweg/recipe/plan.hpp>
+#include <thalweg/recipe/recipe.hpp>
 #include <thalweg/surface/equilibrium/features.hpp>
 
 namespace thalweg::make {
 
-/// The cells that points and ridges of a plan lie in: the highest point of a cell, else its highest ridge.
-std::vector<surface::FeatureCell> feature_cells(recipe::Plan const& plan, Grid const& grid);
+/// The cells that points and ridges lie in: the highest point of a cell, else its highest ridge.
+std::vector<surface::FeatureCell> feature_cells(FeaturePoints const& points, RiverLines const& ridges,
+                                                Grid const& grid);
 
-/// The ridges of a plan with heights everywhere: those without rise from the nearest river by skeleton.ridge_gain.
-RidgeLines ridges_with_heights(recipe::Plan const& plan, Valley const& valley, Run const& run);
+/// Given ridges with heights everywhere: those without rise from the nearest river by skeleton.ridge_gain.
+RidgeLines ridges_with_heights(RiverLines const& lines, recipe::SkeletonRecipe const& wanted, Valley const& valley,
+                               Run const& run);
 
 /// Ridges as the points of a skeleton, one a cell.
 FeaturePoints as_points(RidgeLines const& ridges, Grid const& grid);
 
-/// The ridges of a plan with the heights that the terrain has there.
-RidgeLines ridges_on(recipe::Plan const& plan, Raster<float> const& dem);
+/// Given ridges with the heights that the terrain has there.
+RidgeLines ridges_on(RiverLines const& lines, Raster<float> const& dem);
 
 } // namespace thalweg::make

@@ -9,7 +9,7 @@
 #include <thalweg/make/planform.hpp>
 #include <thalweg/network/channels/channels.hpp>
 #include <thalweg/network/channels/lakes.hpp>
-#include <thalweg/recipe/plan.hpp>
+#include <thalweg/recipe/recipe.hpp>
 
 namespace thalweg::make {
 
@@ -23,11 +23,7 @@ struct WithLakes {
 
 /// Adds the lakes of surface.lakes or surface.lake_share to channels; without either they stay as they are.
 /// \throws BadInput for a level farther than 100 000 m from 0
-WithLakes with_lakes(recipe::Plan const& plan, Planform const& planform, network::ChannelsOfArcs rivers,
+WithLakes with_lakes(recipe::Recipe const& recipe, Planform const& planform, network::ChannelsOfArcs rivers,
                      Run const& run);
-
-/// One warning for all lakes that have not the levels asked.
-/// \param lakes a note on each
-std::vector<Finding> off_levels(std::vector<Finding> const& lakes);
 
 } // namespace thalweg::make

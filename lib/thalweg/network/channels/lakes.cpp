@@ -15,6 +15,7 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/append.hpp>
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/random.hpp>
@@ -571,6 +572,58 @@ Flooded flood_lakes(ChannelsOfArcs const& drawn, Raster<std::int32_t> const& lab
             kept[cell] = 0;
         }
     }
+}
+
+std::vector<Finding> lakes_off_levels(std::vector<Finding> const& lakes) {
+    if (lakes.empty()) {
+        return {};
+    }
+    Finding const& first = lakes.front();
+    std::string const more =
+        lakes.size() > 1 ? fmt::format(". Others that miss their levels: {}", lakes.size() - 1) : "";
+    return {{.kind = "lakes_off_levels",
+             .feature = first.feature,
+             .where = first.where,
+             .text = first.text + more,
+             .key = "surface.lakes",
+             .numbers = {{"lakes", static_cast<double>(lakes.size())}}}};
+}
+
+namespace {
+
+/// What keeps the level of a lake up: the next lake with a level downstream, or the end of the river.
+std::string hindrance(Channels const& channels, std::vector<Lake> const& lakes, Lake const& lake,
+                      Raster<float> const& dem) {
+    std::int64_t cells = 0;
+    std::int64_t at = lake.outlet;
+    do {
+        if (channels.receiver[at] < 0) {
+            return fmt::format("its river ends at {:.6g} m, cells downstream: {}", dem[channels.cell[at]], cells);
+        }
+        at = channels.receiver[at];
+        ++cells;
+    } while (std::isnan(channels.lake_z[at]));
+    auto const below = std::ranges::find(lakes, at, &Lake::outlet);
+    return fmt::format("lake {} stands at {:.6g} m, cells downstream: {}", below->label, dem[channels.cell[at]], cells);
+}
+
+} // namespace
+
+std::vector<Finding> missed_levels(Channels const& channels, std::vector<Lake> const& lakes, Raster<float> const& dem) {
+    std::vector<Finding> notes;
+    for (Lake const& lake : lakes) {
+        float const wanted = channels.lake_z[lake.outlet];
+        std::int64_t const cell = channels.cell[lake.outlet];
+        if (std::isnan(wanted) || dem[cell] == wanted) {
+            continue;
+        }
+        Vec2 const at = dem.grid().centre(dem.grid().at(cell));
+        notes.push_back({"lake_level", lake.label, at, static_cast<double>(dem[cell]),
+                         fmt::format("lake {} at ({:.3f}, {:.3f}) has the level {:.6g} m, not {:.6g} m: {}", lake.label,
+                                     at.x, at.y, dem[cell], wanted, hindrance(channels, lakes, lake, dem))});
+    }
+    append(notes, lakes_off_levels(notes));
+    return notes;
 }
 
 } // namespace thalweg::network

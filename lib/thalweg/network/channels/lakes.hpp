@@ -59,4 +59,16 @@ struct Flooded {
 /// \throws BadInput for a raster on another grid or a label below 0
 Flooded flood_lakes(ChannelsOfArcs const& drawn, Raster<std::int32_t> const& labels, Run const& run = {});
 
+/// One warning for all lakes that have not the levels asked.
+/// \param lakes a note on each
+/// \return "lakes_off_levels"; nothing without lakes
+std::vector<Finding> lakes_off_levels(std::vector<Finding> const& lakes);
+
+/// Notes on lakes that have not their levels, and a warning.
+/// \param channels with lake_z [m], the levels asked
+/// \param lakes in them
+/// \param dem [m] with the lakes as they came out
+/// \return a "lake_level" for each, with what keeps it up, and "lakes_off_levels"
+std::vector<Finding> missed_levels(Channels const& channels, std::vector<Lake> const& lakes, Raster<float> const& dem);
+
 } // namespace thalweg::network

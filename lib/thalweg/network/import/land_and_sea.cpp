@@ -218,4 +218,24 @@ Mask land_along_rivers(Mask land, StreamNetwork const& network) {
     return land;
 }
 
+bool gaps_are_sea(Mask const& land, Channels const& channels) {
+    constexpr float most_m = 10.0F;
+    constexpr double most_of_them = 0.9;
+    constexpr std::int64_t near = 2;
+    Grid const& grid = land.grid();
+    double ends = 0.0;
+    double low = 0.0;
+    for (std::size_t n = 0; n < channels.cell.size(); ++n) {
+        Cell const c = grid.at(channels.cell[n]);
+        bool beside = false;
+        for (std::int64_t k = 0; channels.receiver[n] < 0 && k < (2 * near + 1) * (2 * near + 1); ++k) {
+            Cell const other{c.col + k % (2 * near + 1) - near, c.row + k / (2 * near + 1) - near};
+            beside = beside || (grid.contains(other) && land[other] == 0);
+        }
+        ends += beside ? 1.0 : 0.0;
+        low += beside && std::fabs(channels.z[n]) <= most_m ? 1.0 : 0.0;
+    }
+    return ends > 0.0 && low >= most_of_them * ends;
+}
+
 } // namespace thalweg::network

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include <thalweg/core/channels.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/run.hpp>
@@ -42,5 +43,12 @@ Mask land_behind_outlets(StreamNetwork const& network, Grid const& grid, Run con
 /// \param network inside the mask's grid
 /// \return 0: sea
 Mask land_along_rivers(Mask land, StreamNetwork const& network);
+
+/// Whether the gaps of a DEM are the sea: nine of ten rivers that end within two cells of one do so within 10 m of
+/// height 0.
+/// \param land 0: a gap
+/// \param channels rivers with heights, on the mask's grid
+/// \return false where no river ends beside a gap
+bool gaps_are_sea(Mask const& land, Channels const& channels);
 
 } // namespace thalweg::network

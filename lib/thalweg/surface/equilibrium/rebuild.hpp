@@ -6,6 +6,7 @@
 #include <optional>
 
 #include <thalweg/core/channels.hpp>
+#include <thalweg/core/finding.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
@@ -34,6 +35,10 @@ struct RiverSurvey {
     double source_km2 = 0.0;     ///< [km²] median area that drains to sources
     Raster<float> steepness;     ///< factor of uplift, from the rivers' own steepness to the power 1/2; about 1
 };
+
+/// Warns where rivers tell little of how steep the land between them is.
+/// \return "rills" or "gentle_land", or nothing
+std::vector<Finding> doubts_of(RiverSurvey const& survey);
 
 /// The same rivers with a height in every cell.
 /// \param rivers with some heights, which do not rise downstream; as rebuild()

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/surface/equilibrium/internal/steps.hpp>
 #include <thalweg/surface/equilibrium/rebuild.hpp>
@@ -298,6 +300,34 @@ RiverSurvey survey_rivers(Channels const& rivers, Run const& run) {
         survey.steepness[i] = static_cast<float>(portable::exp(static_cast<double>(q)));
     }
     return survey;
+}
+
+std::vector<Finding> doubts_of(RiverSurvey const& survey) {
+    constexpr double least_km2 = 0.1;
+    constexpr double least_deg = 5.0;
+    constexpr double of_smooth = 0.8; // mean slope of smooth terrain relative to that of the terrain
+    char const* const remedy = "Give it, with --like DEM or --set surface.mean_slope=";
+    double const slope_deg = survey.mean_slope_deg / of_smooth;
+    if (survey.source_km2 > 0.0 && survey.source_km2 < least_km2) {
+        return {{.kind = "rills",
+                 .amount = survey.source_km2,
+                 .text = fmt::format("half of the rivers begin where less than {:.2g} km² drain: they are rills or "
+                                     "gullies, whose slope tells little of the land's, taken for {:.0f} degrees",
+                                     survey.source_km2, slope_deg),
+                 .remedy = fmt::format("{}{:.0f}", remedy, 20.0),
+                 .key = "surface.mean_slope",
+                 .numbers = {{"mean_slope", slope_deg, "deg"}}}};
+    }
+    if (slope_deg < least_deg) {
+        return {{.kind = "gentle_land",
+                 .amount = slope_deg,
+                 .text = fmt::format("by its rivers the land is gentle, {:.1f} degrees on average; below {:g} degrees "
+                                     "they tell little of its slope",
+                                     slope_deg, least_deg),
+                 .remedy = fmt::format("{}{:.1f}", remedy, 0.5 * slope_deg),
+                 .key = "surface.mean_slope"}};
+    }
+    return {};
 }
 
 } // namespace thalweg::surface
