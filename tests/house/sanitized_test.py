@@ -10,7 +10,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MODULES = ["core", "geometry", "solver", "flow", "network", "skeleton", "surface", "fractal", "blend", "measure", "draw", "io",
-           "serve", "pipeline", "studio"]
+           "serve", "recipe", "make", "report", "export", "ensemble", "commands", "studio"]
 
 
 def environment():

@@ -66,7 +66,7 @@ std::array<double, measure::relief_metric_count> figures_of(Relief const& relief
 void write_anew() {
     std::ofstream out(THALWEG_SOURCE_DIR "/lib/thalweg/measure/relief/internal/reference_dems.inc");
     out << "// SPDX-FileCopyrightText: the thalweg authors\n// SPDX-License-Identifier: GPL-3.0-or-later\n"
-           "// Measured from samples/ by tests/pipeline/make/reference_dems_test.cpp, which writes this file under "
+           "// Measured from samples/ by tests/make/reference_dems_test.cpp, which writes this file under "
            "THALWEG_RENEW=1.\n";
     std::string table;
     for (std::size_t l = 0; l < lands.size(); ++l) {
