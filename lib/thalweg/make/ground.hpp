@@ -29,7 +29,7 @@ struct Regressed {};
 
 /// By dilation of the valley, as surface::Dilated.
 struct Dilated {
-    std::vector<double> increments; ///< [m] of each level
+    std::vector<double> increments = {}; ///< [m] of each level
     std::int64_t levels = 0;
     double rise_m = 0.0;
     double flat_share = 0.0; ///< [0, 1]
@@ -60,8 +60,8 @@ struct Equilibrium {
     double p95_lowered_m = 0.0;
     double rise = 0.0;
     bool in_region = false;
-    std::vector<surface::RegionInflow> inflows;
-    std::optional<LikeStatistics> like; ///< where surface.like is set
+    std::vector<surface::RegionInflow> inflows = {};
+    std::optional<LikeStatistics> like = {}; ///< where surface.like is set
 };
 
 /// In equilibrium with rivers whose heights their file has: what these told of the terrain, as surface::RebuiltTerrain.
@@ -84,8 +84,8 @@ struct DetailStatistics {
 
 /// How a surface was brought to the statistics that the recipe asks for.
 struct MatchedStatistics {
-    fractal::MatchedDem projection; ///< its DEM is that of the ground
-    double fine_forms_cells = 0.0;  ///< [cells] below which forms come from a Gaussian surface to meet them; 0: none
+    fractal::MatchedDem projection = {}; ///< its DEM is that of the ground
+    double fine_forms_cells = 0.0; ///< [cells] below which forms come from a Gaussian surface to meet them; 0: none
 };
 
 /// Statistics of a patch.
@@ -98,14 +98,14 @@ struct PatchStatistics {
 
 /// A surface, how it was made, and what it was drawn through.
 struct Ground {
-    Raster<float> dem; ///< [m] without cells where the recipe asks for rivers alone
-    HowMade how;
-    Mask land; ///< as Planform; without cells where the surface is that of a DEM
-    DetailStatistics detail;
-    std::optional<MatchedStatistics> matched; ///< where the recipe asks for statistics
-    RidgeLines ridges;                        ///< between streams and given, where they are asked for
-    Tin tin;                                  ///< of rivers and points; without vertices where none is asked for
-    std::vector<PatchStatistics> patches;     ///< in the recipe's order
+    Raster<float> dem = {}; ///< [m] without cells where the recipe asks for rivers alone
+    HowMade how = {};
+    Mask land = {}; ///< as Planform; without cells where the surface is that of a DEM
+    DetailStatistics detail = {};
+    std::optional<MatchedStatistics> matched = {}; ///< where the recipe asks for statistics
+    RidgeLines ridges = {};                        ///< between streams and given, where they are asked for
+    Tin tin = {};                                  ///< of rivers and points; without vertices where none is asked for
+    std::vector<PatchStatistics> patches = {};     ///< in the recipe's order
 
     /// \return how it is in equilibrium with its rivers; null: it is not
     Equilibrium const* equilibrium() const;

@@ -14,10 +14,10 @@ namespace thalweg::make {
 
 /// Rivers with heights, and what follows from them.
 struct Rivers {
-    ElevatedNetwork network;
-    network::RiverTypes types; ///< by arc; empty where the recipe asks for none
-    NetworkOrders orders;
-    network::StreamCounts streams;
+    ElevatedNetwork network = {};
+    network::RiverTypes types = {}; ///< by arc; empty where the recipe asks for none
+    NetworkOrders orders = {};
+    network::StreamCounts streams = {};
     RiverClues clues = {}; ///< of their file
 };
 

@@ -22,39 +22,39 @@ namespace thalweg::make {
 
 /// The cells in which rivers run, and how they got their heights.
 struct RiverBed {
-    Valley valley;
-    Channels channels;         ///< of rivers with which the surface is in equilibrium, and of lakes
-    std::int64_t lakes = 0;    ///< in them
-    HeightsStatistics heights; ///< of rivers whose heights do not follow from the surface
-    std::int64_t grown = 0;    ///< arcs made of valleys that the terrain has beside its rivers
-    std::int64_t left_out = 0; ///< of these valleys
+    Valley valley = {};
+    Channels channels = {};         ///< of rivers with which the surface is in equilibrium, and of lakes
+    std::int64_t lakes = 0;         ///< in them
+    HeightsStatistics heights = {}; ///< of rivers whose heights do not follow from the surface
+    std::int64_t grown = 0;         ///< arcs made of valleys that the terrain has beside its rivers
+    std::int64_t left_out = 0;      ///< of these valleys
 };
 
 /// How water runs over a surface.
 struct Water {
-    flow::FlowField drainage;      ///< of the surface; without cells where there is none
-    flow::ContributingAreas areas; ///< of the arcs: by the drainage, or by the nearest river
-    bool is_conditioned = false;   ///< the surface was conditioned hydrologically
-    flow::DemChange banks;         ///< by conditioning, like the following
-    flow::DemChange depressions;
+    flow::FlowField drainage = {};      ///< of the surface; without cells where there is none
+    flow::ContributingAreas areas = {}; ///< of the arcs: by the drainage, or by the nearest river
+    bool is_conditioned = false;        ///< the surface was conditioned hydrologically
+    flow::DemChange banks = {};         ///< by conditioning, like the following
+    flow::DemChange depressions = {};
 };
 
 /// What was checked and found while a terrain was made, and how long it took.
 struct Notes {
-    std::vector<Check> checks; ///< of what the recipe asks of the surface
-    std::vector<Finding> findings;
-    Timings timings_s;
+    std::vector<Check> checks = {}; ///< of what the recipe asks of the surface
+    std::vector<Finding> findings = {};
+    Timings timings_s = {};
 };
 
 /// A surface, the rivers with the heights that they have in it, and the water that drains over it.
 struct Terrain {
-    Grid grid;
-    Ground ground;
-    Rivers rivers; ///< without perched tips, with side valleys where they are asked for; without arcs where the recipe
-                   ///< has no [network]
-    RiverBed bed;
-    Water water;
-    Notes notes;
+    Grid grid = {};
+    Ground ground = {};
+    Rivers rivers = {}; ///< without perched tips, with side valleys where they are asked for; without arcs where the
+                        ///< recipe has no [network]
+    RiverBed bed = {};
+    Water water = {};
+    Notes notes = {};
 
     /// \return whether it has a surface; else the recipe asks for rivers alone
     bool has_surface() const { return ground.dem.cells() > 0; }

@@ -20,11 +20,11 @@ namespace thalweg::make {
 
 /// Rivers with heights that do not follow from a surface.
 struct RaisedRivers {
-    ElevatedNetwork network;
-    Valley valley;
-    HeightsStatistics statistics;
-    std::optional<flow::ContributingAreas> areas; ///< by the nearest river, where the heights follow from them
-    std::vector<Finding> findings = {};           ///< on rivers that meet in their cells, on lakes
+    ElevatedNetwork network = {};
+    Valley valley = {};
+    HeightsStatistics statistics = {};
+    std::optional<flow::ContributingAreas> areas = {}; ///< by the nearest river, where the heights follow from them
+    std::vector<Finding> findings = {};                ///< on rivers that meet in their cells, on lakes
     std::int64_t lakes = 0;
     Channels channels = {}; ///< with the lakes; empty without
 };
