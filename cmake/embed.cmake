@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: the thalweg authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Included: thalweg_embed(TARGET FILE HEADER SPACE FUNCTION) adds to a target the function of a header, in a namespace of thalweg, that gives the bytes of
-# a file; they are read again whenever the file changes. As a script: writes that .cpp file.
+# Included: thalweg_embed(TARGET FILE HEADER SPACE FUNCTION) adds to a target the function of a header, in namespace
+# thalweg::SPACE, that gives the bytes of a file; they are read again whenever the file changes. As a script: writes that .cpp file.
 if(CMAKE_SCRIPT_MODE_FILE)
   # Through hexadecimal digits any byte survives, and none has a meaning to CMake or C++ on the way.
   file(READ ${FILE} HEX HEX)

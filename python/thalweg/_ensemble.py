@@ -9,7 +9,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from typing import Any
 
-from thalweg import _networks, _show, members as ensembles
+from thalweg import _networks, _show
+from thalweg import members as ensembles
 from thalweg._terrain import Terrain, _recipe_of
 
 

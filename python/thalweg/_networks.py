@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from thalweg import _core, flow, io, report as reports
+from thalweg import _core, flow, io
 from thalweg import network as networks
+from thalweg import report as reports
 from thalweg._raster import Raster, crs_text, say, to_core
 from thalweg._show import bad_input, need
 

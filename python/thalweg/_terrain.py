@@ -14,8 +14,11 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from thalweg import _core, _networks, _show, recipe as recipes, terrain as terrains, report as reports
+from thalweg import _core, _networks, _show
 from thalweg import flow as flows
+from thalweg import recipe as recipes
+from thalweg import report as reports
+from thalweg import terrain as terrains
 from thalweg._raster import Raster
 from thalweg._show import bad_input
 
