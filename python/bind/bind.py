@@ -57,11 +57,7 @@ LEFT_OUT = [
         r"|web_pyramid|web_tiles_at|write_web_tiles|lines_in_degrees)",
         "files and formats inside io",
     ),
-    (
-        r"(skeleton|surface|fractal|network)::(check|check_targets|require_growth|kept_heights|noise_row|stencil_weights|bytes_needed"
-        r"|room_for_network|margin_around|check_memory|check_memory_of_cluster|frame_\w+)",
-        "a part of a stage",
-    ),
+    (r"(skeleton|fractal|network)::(check|check_targets|require_growth|kept_heights|noise_row|stencil_weights)", "a part of a stage"),
     (r"measure::relief_range", "by the number of a metric, which relief_rows names"),
     (r"geometry::put_in_order|recipe::(un)?set_key", "it changes its argument: see by_hand.cpp for what there is instead"),
     (r"io::write_geopackage", "see by_hand.cpp"),
@@ -891,6 +887,9 @@ class Binder:
     def write_records_header(self) -> str:
         text = "".join(f"#include <thalweg/{FOLDERS.get(m, m)}.hpp>\n" for m in ["core", *MODULES])
         text += '\n#include "glue.hpp"\n\nnamespace thalweg::python {\n\n'
+        others = ", ".join(f'{{"{FOLDERS.get(m, m)}", "{called(m)}"}}' for m in CALLED if FOLDERS.get(m, m) != called(m))
+        text += "/// How Python calls the modules that it calls otherwise.\n"
+        text += f"constexpr std::pair<std::string_view, std::string_view> renamed[] = {{{others}}};\n\n"
         for scope, enumeration in sorted(self.enumerations.items()):
             if (
                 enumeration.header.startswith(("thalweg/core/run/", "thalweg/core/numbers/"))

@@ -23,10 +23,20 @@ py::handle error_type(py::module_& module, char const* name, py::object const& b
     return type.inc_ref();
 }
 
+/// A function of the library by its name in Python.
+std::string in_python(std::string_view function) {
+    for (auto const& [module, name] : renamed) {
+        if (function.starts_with(module) && function.substr(module.size()).starts_with('.')) {
+            return std::string(name) + std::string(function.substr(module.size()));
+        }
+    }
+    return std::string(function);
+}
+
 void set_error(py::handle type, Error const& error) {
     py::object const words = py::module_::import("thalweg._show").attr("in_python")(text_of(error.what()));
     py::object const raised = type(words);
-    raised.attr("where") = text_of(error.where());
+    raised.attr("where") = text_of(in_python(error.where()));
     PyErr_SetObject(type.ptr(), raised.ptr());
 }
 

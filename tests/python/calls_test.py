@@ -231,6 +231,9 @@ class Arguments(unittest.TestCase):
             with self.assertRaises(thalweg.BadInput) as caught:
                 thalweg.flow.route(bad)
             self.assertEqual(caught.exception.where, "flow.route")
+        with self.assertRaises(thalweg.BadInput) as caught:  # of the library's module make, which Python calls terrain
+            thalweg.terrain.laws_of_dem(np.full((9, 9), np.nan, np.float32))
+        self.assertEqual(caught.exception.where, "terrain.laws_of_dem")
         with self.assertRaises(OSError):
             thalweg.io.write_dem(valley(), "/no/such/folder/dem.tif")
 
