@@ -172,4 +172,27 @@ TEST(CarryOutlets, EndsAtTheSea) {
     EXPECT_TRUE(network::carry_outlets(carried.network, land, 100).notes.empty());
 }
 
+/// Ten rivers of one cell each, the last ones high above the sea.
+Channels ends_beside(Grid const& grid, std::int64_t col, int high) {
+    Channels channels;
+    for (int i = 0; i < 10; ++i) {
+        channels.cell.push_back(grid.index({col, i}));
+        channels.receiver.push_back(-1);
+        channels.z.push_back(i < 10 - high ? 9.0F : 300.0F);
+    }
+    return channels;
+}
+
+TEST(GapsAreSea, WhereNineOfTenRiversEndLowBesideThem) {
+    Grid const grid = test::frame(10, 10);
+    Mask land(grid, 1);
+    for (std::int64_t row = 0; row < 10; ++row) {
+        land[Cell{0, row}] = 0;
+    }
+    EXPECT_TRUE(network::gaps_are_sea(land, ends_beside(grid, 2, 1)));
+    EXPECT_FALSE(network::gaps_are_sea(land, ends_beside(grid, 2, 2))) << "two of ten are high";
+    EXPECT_FALSE(network::gaps_are_sea(land, ends_beside(grid, 3, 0))) << "none ends beside a gap";
+    EXPECT_FALSE(network::gaps_are_sea(land, {}));
+}
+
 } // namespace land_and_sea_test
