@@ -16,7 +16,7 @@
 #include <thalweg/io/network/read_network.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/network/schema.hpp>
-#include <thalweg/io/network/table.hpp>
+#include <thalweg/io/tables/table.hpp>
 #include <thalweg/io/network/write_network.hpp>
 #include <thalweg/io/qgis/project.hpp>
 #include <thalweg/io/qgis/styles.hpp>

@@ -19,6 +19,9 @@ MODULES.update({name: BELOW + STAGES + PROGRAM[:number] for number, name in enum
 MODULES.update({stage: BELOW for stage in STAGES})
 MODULES["serve"] = ["core"]
 
+# The folders of modules where these have an order: each may include those before it.
+FOLDERS = {"io": ["files", "gdal", "crs", "qgis", "tables", "raster", "network", "mesh", "sources"]}
+
 # Which foreign headers (by how their names begin) a module's .cpp files may include.
 FOREIGN = {
     "core": ["oneapi/tbb/", "Random123/"],
@@ -128,6 +131,19 @@ def check_own_include(name, header):
     return None
 
 
+def check_folders(name, header):
+    """What is wrong with an include between the folders of one module, or None."""
+    module, own = pathlib.PurePath(name).parts[2:4]
+    target = pathlib.PurePath(header).parts[2]
+    order = FOLDERS[module]
+    for folder in (own, target):
+        if folder not in order:
+            return f"{module}/{folder} has no place in the order of {module}'s folders: tests/house/rules.py"
+    if order.index(target) > order.index(own):
+        return f"{module}/{own} includes <{header}>: {module}'s folders include those before them"
+    return None
+
+
 def check_include(name, module, quoted, header):
     """What is wrong with one include of a file in lib or tools, or None."""
     if quoted:
@@ -138,6 +154,8 @@ def check_include(name, module, quoted, header):
         target = header.split("/")[1]
         if "/internal/" in header and (module != target or (name.endswith(".hpp") and "/internal/" not in name)):
             return f"<{header}> is for the .cpp files of {target} alone"
+        if module in FOLDERS and target == module and len(pathlib.PurePath(name).parts) > 4:
+            return check_folders(name, header)
         if module == "tools" or target == module or target in MODULES[module]:
             return None
         what = "stage modules meet in the program's" if target in STAGES and module in STAGES else "dependencies point one way"

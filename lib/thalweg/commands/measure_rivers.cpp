@@ -18,7 +18,7 @@
 #include <thalweg/core/vec.hpp>
 #include <thalweg/flow/extract_streams.hpp>
 #include <thalweg/flow/paths.hpp>
-#include <thalweg/io/network/table.hpp>
+#include <thalweg/io/tables/table.hpp>
 #include <thalweg/io/qgis/styles.hpp>
 #include <thalweg/io/raster/polygons.hpp>
 #include <thalweg/make/file_values.hpp>

@@ -17,9 +17,9 @@
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/mesh/points.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
-#include <thalweg/io/network/table.hpp>
 #include <thalweg/io/qgis/styles.hpp>
 #include <thalweg/io/raster/polygons.hpp>
+#include <thalweg/io/tables/table.hpp>
 
 namespace thalweg::studio {
 namespace {

@@ -19,7 +19,7 @@
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
-#include <thalweg/io/network/table.hpp>
+#include <thalweg/io/tables/table.hpp>
 
 #include "unpacked.hpp"
 

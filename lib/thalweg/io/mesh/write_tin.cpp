@@ -13,8 +13,8 @@
 #include <thalweg/io/files/internal/files.hpp>
 #include <thalweg/io/mesh/internal/las_ply.hpp>
 #include <thalweg/io/mesh/tin.hpp>
-#include <thalweg/io/network/table.hpp>
 #include <thalweg/io/qgis/styles.hpp>
+#include <thalweg/io/tables/table.hpp>
 
 namespace thalweg::io {
 namespace {

@@ -17,6 +17,7 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/network/internal/read_network.hpp>
 #include <thalweg/io/qgis/styles.hpp>
+#include <thalweg/io/tables/internal/layers.hpp>
 
 namespace thalweg::io {
 

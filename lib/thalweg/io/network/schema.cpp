@@ -9,8 +9,8 @@
 #include <thalweg/core/by_enum.hpp>
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
-#include <thalweg/io/network/internal/network_tables.hpp>
 #include <thalweg/io/network/internal/read_network.hpp>
+#include <thalweg/io/tables/internal/layers.hpp>
 
 namespace thalweg::io {
 

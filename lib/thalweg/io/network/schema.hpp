@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include <thalweg/io/network/table.hpp>
+#include <thalweg/io/tables/table.hpp>
 
 namespace thalweg::io {
 

@@ -22,6 +22,7 @@
 #include <thalweg/io/qgis/internal/qgis.hpp>
 #include <thalweg/io/qgis/styles.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
+#include <thalweg/io/tables/internal/layers.hpp>
 
 namespace thalweg::io {
 

@@ -423,35 +423,6 @@ QgisStyle mesh_style(Tints const& tints, std::string const& unit) {
 
 // Where they stand in a GeoPackage.
 
-Table styles_table(std::span<Table const> tables) {
-    auto const rows = std::make_shared<std::vector<std::pair<std::string, std::string>>>();
-    for (Table const& table : tables) {
-        if (!table.style.empty()) {
-            rows->emplace_back(table.name, qml(table.style));
-        }
-    }
-    using Kind = Column::Kind;
-    auto const text = [](char const* name, auto value) {
-        return Column{name, Kind::text, 0, [value](std::size_t row) { return Column::Value(std::string(value(row))); },
-                      true};
-    };
-    auto const always = [](char const* word) { return [word](std::size_t) { return word; }; };
-    Table out{styles_layer, Table::Shape::none, rows->size(), {}, {}};
-    out.columns = {text("f_table_catalog", always("")),
-                   text("f_table_schema", always("")),
-                   text("f_table_name", [rows](std::size_t row) { return (*rows)[row].first; }),
-                   text("f_geometry_column", always("geom")),
-                   text("styleName", always("thalweg")),
-                   text("styleQML", [rows](std::size_t row) { return (*rows)[row].second; }),
-                   text("styleSLD", always("")),
-                   {"useAsDefault", Kind::integer, 0, [](std::size_t) { return std::int64_t{1}; }, true},
-                   text("description", always("thalweg")),
-                   text("owner", always("")),
-                   text("ui", always("")),
-                   {"update_time", Kind::datetime, 0, [](std::size_t) { return std::string(fixed_date); }, true}};
-    return out;
-}
-
 std::map<std::string, QgisStyle> styles_of(std::string const& path) {
     std::string const what = "io.styles_of: " + path;
     Driver const driver;

@@ -21,6 +21,7 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/raster/internal/exr.hpp>
+#include <thalweg/io/raster/internal/raster_dataset.hpp>
 #include <thalweg/io/raster/internal/read_dem.hpp>
 
 namespace thalweg::io {

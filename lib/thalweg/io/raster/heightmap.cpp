@@ -8,7 +8,7 @@
 
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/files/files.hpp>
-#include <thalweg/io/mesh/internal/las_ply.hpp>
+#include <thalweg/io/files/internal/put_number.hpp>
 #include <thalweg/io/raster/internal/exr.hpp>
 #include <thalweg/io/raster/internal/png.hpp>
 

@@ -27,6 +27,7 @@
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/raster/heightmap.hpp>
 #include <thalweg/io/raster/internal/exr.hpp>
+#include <thalweg/io/raster/internal/raster_dataset.hpp>
 
 namespace thalweg::io {
 namespace {

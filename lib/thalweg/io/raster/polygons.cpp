@@ -21,9 +21,10 @@
 #include <thalweg/io/crs/internal/into_metres.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
-#include <thalweg/io/network/table.hpp>
 #include <thalweg/io/qgis/styles.hpp>
 #include <thalweg/io/raster/internal/polygons.hpp>
+#include <thalweg/io/raster/internal/raster_dataset.hpp>
+#include <thalweg/io/tables/table.hpp>
 
 namespace thalweg::io {
 namespace {

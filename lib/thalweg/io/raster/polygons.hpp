@@ -10,7 +10,7 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/gdal/access.hpp>
-#include <thalweg/io/network/table.hpp>
+#include <thalweg/io/tables/table.hpp>
 
 namespace thalweg::io {
 

@@ -28,6 +28,7 @@
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/raster/internal/opened_heights.hpp>
+#include <thalweg/io/raster/internal/raster_dataset.hpp>
 #include <thalweg/io/raster/internal/read_dem.hpp>
 
 namespace thalweg::io {

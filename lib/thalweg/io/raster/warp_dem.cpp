@@ -21,6 +21,7 @@
 #include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
+#include <thalweg/io/raster/internal/raster_dataset.hpp>
 
 namespace thalweg::io {
 namespace {

@@ -15,6 +15,7 @@
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
+#include <thalweg/io/raster/internal/raster_dataset.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 
 namespace thalweg::io {

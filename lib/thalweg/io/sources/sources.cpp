@@ -28,10 +28,10 @@
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/mesh/internal/read_las.hpp>
 #include <thalweg/io/mesh/points.hpp>
-#include <thalweg/io/network/internal/network_tables.hpp>
 #include <thalweg/io/network/internal/read_network.hpp>
 #include <thalweg/io/raster/internal/height_bands.hpp>
 #include <thalweg/io/raster/internal/heightmap_files.hpp>
+#include <thalweg/io/tables/internal/layers.hpp>
 
 namespace thalweg::io {
 namespace {

@@ -60,17 +60,6 @@ private:
     std::string path_;
 };
 
-/// Sets position and CRS of a data set.
-/// \throws BadInput when the CRS is invalid
-void set_frame(GDALDataset& dataset, Grid const& grid);
-
-/// \throws BadInput when a raster is empty or has too many cells for GDAL.
-void require_size(Grid const& grid, std::string const& what);
-
-/// Copies heights to a GDAL data set, with nodata_height for NaN.
-/// \throws BadInput when a height is infinite or equals nodata_height, or as require_size
-Dataset in_memory(Raster<float> const& dem, std::string const& what);
-
 /// The name by which GDAL opens the content of a zip archive: the archive itself, or its only folder if its files are
 /// there. Other paths are returned unchanged. Needs a Driver that outlives it.
 std::string inside_archive(std::string const& path);

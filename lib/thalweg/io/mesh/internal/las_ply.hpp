@@ -3,29 +3,16 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include <thalweg/core/height_unit.hpp>
 #include <thalweg/core/vec.hpp>
+#include <thalweg/io/files/internal/put_number.hpp>
 
 namespace thalweg::io {
-
-/// Appends a number to a file's bytes, little-endian on every machine.
-template <class T> void put_number(std::string& bytes, T value) {
-    std::array<char, sizeof(T)> raw{};
-    std::memcpy(raw.data(), &value, sizeof(T));
-    if constexpr (std::endian::native == std::endian::big) {
-        std::reverse(raw.begin(), raw.end());
-    }
-    bytes.append(raw.data(), raw.size());
-}
 
 // Parts of binary PLY files, common to points and triangles. Source: Turk 1994, The PLY polygon file format.
 

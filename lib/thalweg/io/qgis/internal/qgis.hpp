@@ -2,11 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <span>
 #include <string>
 #include <string_view>
-
-#include <thalweg/io/network/internal/network_tables.hpp>
 
 namespace thalweg::io {
 
@@ -21,8 +18,5 @@ inline constexpr char const* style_attributes =
 
 /// Text for an element or an attribute in double quotes; XML 1.0 has no control characters but three, not even escaped.
 std::string xml_escaped(std::string_view text);
-
-/// The table layer_styles, with a default style for each table that has one.
-Table styles_table(std::span<Table const> tables);
 
 } // namespace thalweg::io

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <cpl_conv.h>
@@ -22,8 +23,9 @@
 #include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
-#include <thalweg/io/network/internal/network_tables.hpp>
 #include <thalweg/io/qgis/internal/qgis.hpp>
+#include <thalweg/io/qgis/styles.hpp>
+#include <thalweg/io/tables/internal/layers.hpp>
 
 namespace thalweg::io {
 
@@ -241,10 +243,6 @@ void require_crs(std::string const& path, OGRSpatialReference const& wanted, std
     }
 }
 
-} // namespace
-
-namespace {
-
 /// Where GDAL writes a shapefile: in memory, since it is silent of a part that the disk did not take.
 class Shapefile {
 public:
@@ -278,6 +276,35 @@ private:
 };
 
 } // namespace
+
+Table styles_table(std::span<Table const> tables) {
+    auto const rows = std::make_shared<std::vector<std::pair<std::string, std::string>>>();
+    for (Table const& table : tables) {
+        if (!table.style.empty()) {
+            rows->emplace_back(table.name, qml(table.style));
+        }
+    }
+    using Kind = Column::Kind;
+    auto const text = [](char const* name, auto value) {
+        return Column{name, Kind::text, 0, [value](std::size_t row) { return Column::Value(std::string(value(row))); },
+                      true};
+    };
+    auto const always = [](char const* word) { return [word](std::size_t) { return word; }; };
+    Table out{styles_layer, Table::Shape::none, rows->size(), {}, {}};
+    out.columns = {text("f_table_catalog", always("")),
+                   text("f_table_schema", always("")),
+                   text("f_table_name", [rows](std::size_t row) { return (*rows)[row].first; }),
+                   text("f_geometry_column", always("geom")),
+                   text("styleName", always("thalweg")),
+                   text("styleQML", [rows](std::size_t row) { return (*rows)[row].second; }),
+                   text("styleSLD", always("")),
+                   {"useAsDefault", Kind::integer, 0, [](std::size_t) { return std::int64_t{1}; }, true},
+                   text("description", always("thalweg")),
+                   text("owner", always("")),
+                   text("ui", always("")),
+                   {"update_time", Kind::datetime, 0, [](std::size_t) { return std::string(fixed_date); }, true}};
+    return out;
+}
 
 void write_file(std::span<Table const> tables, std::string const& crs, std::string const& path, LayerFormat format,
                 Run const& run) {
