@@ -8,6 +8,7 @@
 #include <thalweg/geometry/natural_neighbours.hpp>
 #include <thalweg/geometry/nearby.hpp>
 #include <thalweg/geometry/polylines.hpp>
+#include <thalweg/geometry/segment_grid.hpp>
 #include <thalweg/geometry/tin_of_dem.hpp>
 #include <thalweg/geometry/triangles.hpp>
 #include <thalweg/geometry/triangulate.hpp>

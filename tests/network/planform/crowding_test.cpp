@@ -13,7 +13,7 @@
 #include <support.hpp>
 
 #include <thalweg/core/numbers/random.hpp>
-#include <thalweg/network/planform/internal/segment_grid.hpp>
+#include <thalweg/geometry/segment_grid.hpp>
 
 namespace crowding_test {
 
@@ -44,8 +44,8 @@ std::vector<std::size_t> too_near(Stems const& stems, std::vector<Vec2> const& w
                 (stems.stem_of[i] == stems.stem_of[j] && std::fabs(stems.way_m[i] - stems.way_m[j]) < gap.along_m)) {
                 continue;
             }
-            double const now = network::squared_distance(is[i], {is[j], is[j + 1]});
-            double const before = network::squared_distance(was[i], {was[j], was[j + 1]});
+            double const now = geometry::squared_distance(is[i], {is[j], is[j + 1]});
+            double const before = geometry::squared_distance(was[i], {was[j], was[j + 1]});
             if (now < (before >= gap_m2 ? gap_m2 : 0.6 * 0.6 * before)) {
                 found.insert({i, j});
             }

@@ -17,7 +17,7 @@
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/nearby.hpp>
-#include <thalweg/network/planform/internal/segment_grid.hpp>
+#include <thalweg/geometry/segment_grid.hpp>
 
 namespace thalweg::network {
 namespace {
@@ -57,10 +57,10 @@ public:
         }
     }
 
-    bool come_near(Segment const& s, double margin_cells) const {
+    bool come_near(geometry::Segment const& s, double margin_cells) const {
         double const margin = margin_cells * cell_m_;
-        return !segments_.near(s, margin,
-                               [&](std::size_t n) { return squared_distance(segments_[n], s) > margin * margin; });
+        return !segments_.near(
+            s, margin, [&](std::size_t n) { return geometry::squared_distance(segments_[n], s) > margin * margin; });
     }
 
     // The position nearest to p (ties: the first); nothing within a few cells.
@@ -105,7 +105,7 @@ private:
 
     StreamNetwork const& plan_;
     double cell_m_;
-    SegmentGrid segments_;
+    geometry::SegmentGrid segments_;
     std::vector<std::pair<std::size_t, std::size_t>> owners_; // by segment: its arc and index there
 };
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include <thalweg/core/cells.hpp>
+#include <thalweg/geometry/segment_grid.hpp>
 #include <thalweg/network/import/prepare_lines.hpp>
-#include <thalweg/network/planform/internal/segment_grid.hpp>
 
 namespace thalweg::network {
 
@@ -45,7 +45,7 @@ public:
     int operator[](Cell c) const { return side_[c]; }
 
 private:
-    void add(Segment const& s) {
+    void add(geometry::Segment const& s) {
         if (s.a == s.b) {
             return;
         }
@@ -61,10 +61,10 @@ private:
     }
 
     /// If two segments meet at the point nearest to a cell, the one with the larger perpendicular distance decides.
-    void ask(Segment const& s, Cell c, double reach_m2) {
+    void ask(geometry::Segment const& s, Cell c, double reach_m2) {
         Grid const& grid = side_.grid();
         Vec2 const p = grid.centre(c);
-        double const square = squared_distance(p, s);
+        double const square = geometry::squared_distance(p, s);
         if (square > reach_m2) {
             return;
         }

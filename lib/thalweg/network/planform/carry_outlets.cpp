@@ -16,8 +16,8 @@
 
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/geometry/segment_grid.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
-#include <thalweg/network/planform/internal/segment_grid.hpp>
 
 namespace thalweg::network {
 namespace {
@@ -60,7 +60,7 @@ bool apart(double a, double b, double c, double d, double slack) {
 }
 
 /// Whether a and b lie on one side of the line through s, farther from it than slack.
-bool on_one_side(Segment s, Vec2 a, Vec2 b, double slack) {
+bool on_one_side(geometry::Segment s, Vec2 a, Vec2 b, double slack) {
     double const least = slack * distance(s.a, s.b);
     double const left = cross(s.a, s.b, a);
     double const right = cross(s.a, s.b, b);
@@ -68,7 +68,7 @@ bool on_one_side(Segment s, Vec2 a, Vec2 b, double slack) {
 }
 
 /// Whether s and t do not meet; within slack [m]: false.
-bool clear(Segment s, Segment t, double slack) {
+bool clear(geometry::Segment s, geometry::Segment t, double slack) {
     return apart(s.a.x, s.b.x, t.a.x, t.b.x, slack) || apart(s.a.y, s.b.y, t.a.y, t.b.y, slack) ||
            on_one_side(s, t.a, t.b, slack) || on_one_side(t, s.a, s.b, slack);
 }
@@ -123,8 +123,8 @@ public:
         if (distance_[to] == 0 || cuts_a_corner(from, to)) {
             return false;
         }
-        Segment const step{p, grid_.centre(to)};
-        return all_near(from, to, [&](Segment s) {
+        geometry::Segment const step{p, grid_.centre(to)};
+        return all_near(from, to, [&](geometry::Segment s) {
             return s.a == p   ? fan_out(p, step.b, s.b, slack_m_)
                    : s.b == p ? fan_out(p, step.b, s.a, slack_m_)
                               : clear(step, s, slack_m_);
@@ -136,8 +136,8 @@ public:
         if (cuts_a_corner(from, to)) {
             return false;
         }
-        Segment const step{p, confluence.at};
-        return all_near(from, to, [&](Segment s) {
+        geometry::Segment const step{p, confluence.at};
+        return all_near(from, to, [&](geometry::Segment s) {
             return s.a == step.b   ? fan_out(step.b, p, s.b, slack_m_)
                    : s.b == step.b ? fan_out(step.b, p, s.a, slack_m_)
                    : s.a == p      ? fan_out(p, step.b, s.b, slack_m_)
@@ -186,7 +186,7 @@ private:
     }
 
     // Registers a segment with every cell it passes or touches.
-    void touch(Segment s) {
+    void touch(geometry::Segment s) {
         std::size_t const number = segments_.size();
         segments_.push_back(s);
         double const h = grid_.cell_m;
@@ -219,7 +219,7 @@ private:
     double slack_m_;
     Raster<std::uint8_t> distance_; // [cells] city-block, to the nearest river cell; 255: that far or farther
     Raster<std::uint8_t> corner_;   // by cell, for its south-east corner: 1: a river runs NW-SE, 2: NE-SW
-    std::vector<Segment> segments_;
+    std::vector<geometry::Segment> segments_;
     std::unordered_map<std::int64_t, Confluence> confluences_;            // by cell; only looked up, never iterated
     std::unordered_map<std::int64_t, std::vector<std::size_t>> touching_; // only looked up, never iterated
 };

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <mutex>
 
-#include <thalweg/network/planform/internal/segment_grid.hpp>
+#include <thalweg/geometry/segment_grid.hpp>
 
 namespace thalweg::network {
 namespace {
@@ -107,11 +107,11 @@ void Crowding::compare(std::size_t point, std::size_t segment, Pairs& close) con
         return;
     }
     double const gap_m2 = gap_.gap_m * gap_.gap_m;
-    double const now = squared_distance(is_[point], {is_[segment], is_[segment + 1]});
+    double const now = geometry::squared_distance(is_[point], {is_[segment], is_[segment + 1]});
     if (!(now < gap_m2)) {
         return;
     }
-    double const before = squared_distance(was_[point], {was_[segment], was_[segment + 1]});
+    double const before = geometry::squared_distance(was_[point], {was_[segment], was_[segment + 1]});
     if (now < (before >= gap_m2 ? gap_m2 : kept_share * kept_share * before)) {
         close.emplace_back(static_cast<std::uint32_t>(point), static_cast<std::uint32_t>(segment));
     }

@@ -32,8 +32,8 @@ Vec2 centroid_of(std::vector<Vec2> const& ring) {
     return {ring[0].x + x / (3.0 * sum), ring[0].y + y / (3.0 * sum)};
 }
 
-std::vector<Segment> sides_of(std::vector<Vec2> const& ring) {
-    std::vector<Segment> sides;
+std::vector<geometry::Segment> sides_of(std::vector<Vec2> const& ring) {
+    std::vector<geometry::Segment> sides;
     for (std::size_t i = 0; i < ring.size(); ++i) {
         sides.push_back({ring[i], ring[(i + 1) % ring.size()]});
     }
@@ -48,7 +48,7 @@ std::vector<Vec2> lattice_in(std::vector<Vec2> const& ring, double width_m) {
     for (double k = 0.5; low->y + k * width_m < high->y; k += 1.0) {
         double const y = low->y + k * width_m;
         cuts.clear();
-        for (Segment const& s : sides_of(ring)) {
+        for (geometry::Segment const& s : sides_of(ring)) {
             if ((s.a.y > y) != (s.b.y > y)) {
                 cuts.push_back(s.a.x + (y - s.a.y) / (s.b.y - s.a.y) * (s.b.x - s.a.x));
             }
@@ -126,7 +126,7 @@ private:
         ForestLink const& link = forest_.links[i];
         return link.down < 0 ? forest_.shares[link.tree].mouth : at_[link.down];
     }
-    Segment segment(std::size_t i) const { return {lower_end(i), at_[i]}; }
+    geometry::Segment segment(std::size_t i) const { return {lower_end(i), at_[i]}; }
 
     bool neighbours(std::size_t i, std::size_t k) const {
         LinkId const down = forest_.links[i].down;
@@ -176,22 +176,22 @@ private:
     }
 
     /// A link may begin on a wall at its tree's mouth, which is rounded and may lie slightly beside the wall.
-    bool begins_on(std::size_t i, Segment const& wall) const {
+    bool begins_on(std::size_t i, geometry::Segment const& wall) const {
         double const wide = usual_[forest_.links[i].tree];
-        return forest_.links[i].down < 0 && squared_distance(lower_end(i), wall) <= 1e-10 * wide * wide;
+        return forest_.links[i].down < 0 && geometry::squared_distance(lower_end(i), wall) <= 1e-10 * wide * wide;
     }
 
     bool clear(std::size_t i) const {
-        Segment const s = segment(i);
+        geometry::Segment const s = segment(i);
         double const length = distance(s.a, s.b);
         if (!(length > 0.0)) {
             return false;
         }
         double const margin = std::max(forest_.clearance * length, forest_.min_spacing_m);
         return grid_->near(s, margin, [&](std::size_t k) {
-            Segment const& t = (*grid_)[k];
+            geometry::Segment const& t = (*grid_)[k];
             if (k >= links_) {
-                return drawn(i) || squared_distance(s, t) > 0.0 || begins_on(i, t);
+                return drawn(i) || geometry::squared_distance(s, t) > 0.0 || begins_on(i, t);
             }
             if (k == i || neighbours(i, k)) {
                 return true;
@@ -200,7 +200,7 @@ private:
                 drawn(i) && drawn(k)
                     ? 0.0
                     : std::max(forest_.clearance * std::min(length, distance(t.a, t.b)), forest_.min_spacing_m);
-            double const squared = squared_distance(s, t);
+            double const squared = geometry::squared_distance(s, t);
             return squared > 0.0 && squared >= need * need;
         });
     }
@@ -225,7 +225,7 @@ private:
     std::size_t links_;
     std::vector<std::uint8_t> stays_;
     std::vector<std::vector<std::size_t>> up_;
-    std::optional<SegmentGrid> grid_;
+    std::optional<geometry::SegmentGrid> grid_;
 };
 
 } // namespace
@@ -323,8 +323,8 @@ void check(EmbedParams const& params, std::size_t links) {
                                        links, std::fabs(geometry::signed_area(params.region)), spacing));
     }
     double nearest = std::numeric_limits<double>::infinity();
-    for (Segment const& side : sides_of(params.region)) {
-        nearest = std::min(nearest, std::sqrt(squared_distance(params.mouth, side)));
+    for (geometry::Segment const& side : sides_of(params.region)) {
+        nearest = std::min(nearest, std::sqrt(geometry::squared_distance(params.mouth, side)));
     }
     refuse_if<BadParameter>(!geometry::contains(params.region, params.mouth) && nearest > 1e-6 * spacing,
                             "network.embed_tree: the outlet ({}, {}) lies {} m outside the region; move it to its edge",

@@ -33,19 +33,19 @@ struct ForestLayout {
 
     Forest const& forest;
     std::size_t links;
-    std::vector<Vec2> at;                     // [m] by node
-    std::vector<std::vector<std::size_t>> up; // by node: the active links that end there
-    std::vector<std::size_t> below;           // by link: the active node at which it ends; no_link: not active yet
-    std::vector<std::uint8_t> active;         // by link: whether its node is active
-    std::vector<double> tree_spacing_m;       // by tree: square root of its area per active node
-    std::vector<double> spacing_m;            // by link: spacing of its tree
-    std::vector<std::vector<Vec2>> samples;   // by tree: positions spread evenly over its area
-    std::optional<SegmentGrid> placed;        // placed links, by number, then the walls
+    std::vector<Vec2> at;                        // [m] by node
+    std::vector<std::vector<std::size_t>> up;    // by node: the active links that end there
+    std::vector<std::size_t> below;              // by link: the active node at which it ends; no_link: not active yet
+    std::vector<std::uint8_t> active;            // by link: whether its node is active
+    std::vector<double> tree_spacing_m;          // by tree: square root of its area per active node
+    std::vector<double> spacing_m;               // by link: spacing of its tree
+    std::vector<std::vector<Vec2>> samples;      // by tree: positions spread evenly over its area
+    std::optional<geometry::SegmentGrid> placed; // placed links, by number, then the walls
 
     bool is_mouth(std::size_t node) const { return node >= links; }
     bool is_pinned(std::size_t node) const { return is_mouth(node) || forest.links[node].pinned.has_value(); }
     Vec2 lower_end(std::size_t link) const { return at[below[link]]; }
-    Segment segment(std::size_t link) const { return {at[below[link]], at[link]}; }
+    geometry::Segment segment(std::size_t link) const { return {at[below[link]], at[link]}; }
 
     // The node at which a link ends, active or not.
     std::size_t node_below(std::size_t link) const {
@@ -156,11 +156,11 @@ constexpr double same_place_squared = 1e-18; ///< relative to the spacing, squar
 constexpr double at_mouth_squared = 0.01;
 
 /// Whether a link may run along `wanted` after the node `mover`, one of its ends, has moved.
-bool keeps_clear(ForestLayout const& layout, std::size_t link, Segment const& wanted, std::size_t mover,
+bool keeps_clear(ForestLayout const& layout, std::size_t link, geometry::Segment const& wanted, std::size_t mover,
                  Placement placement) {
     double const length = distance(wanted.a, wanted.b);
     double const spacing = layout.spacing_m[link];
-    Segment const now = placement == Placement::move ? layout.segment(link) : wanted;
+    geometry::Segment const now = placement == Placement::move ? layout.segment(link) : wanted;
     if (placement == Placement::move && length < shortest_link * spacing && length < distance(now.a, now.b)) {
         return false;
     }
@@ -174,22 +174,22 @@ bool keeps_clear(ForestLayout const& layout, std::size_t link, Segment const& wa
         if (other == link) {
             return true;
         }
-        Segment const& there = (*layout.placed)[other];
+        geometry::Segment const& there = (*layout.placed)[other];
         bool const is_wall = other >= layout.links;
         if (is_wall) {
-            bool const at_mouth = layout.is_mouth(lower) &&
-                                  squared_distance(layout.at[lower], there) < same_place_squared * spacing * spacing;
+            bool const at_mouth = layout.is_mouth(lower) && geometry::squared_distance(layout.at[lower], there) <
+                                                                same_place_squared * spacing * spacing;
             if (at_mouth) {
-                return squared_distance(wanted.b, there) > at_mouth_squared * margin * margin &&
+                return geometry::squared_distance(wanted.b, there) > at_mouth_squared * margin * margin &&
                        layout.forest.inside(wanted.b);
             }
         } else if (is_neighbour(other)) {
             return true; // their angle is checked instead
         }
-        double const squared = squared_distance(wanted, there);
+        double const squared = geometry::squared_distance(wanted, there);
         double const need = is_wall ? margin : distance_needed(layout, link, length, distance(there.a, there.b));
         return squared >= need * need ||
-               (placement == Placement::move && squared > 0.0 && squared >= squared_distance(now, there));
+               (placement == Placement::move && squared > 0.0 && squared >= geometry::squared_distance(now, there));
     });
 }
 
@@ -293,7 +293,7 @@ void begin_index(ForestLayout& layout) {
         }
     }
     double const cell_m = *std::min_element(layout.tree_spacing_m.begin(), layout.tree_spacing_m.end());
-    std::vector<Segment> const& walls = layout.forest.walls;
+    std::vector<geometry::Segment> const& walls = layout.forest.walls;
     layout.placed.emplace(low, high, cell_m, layout.links + walls.size());
     for (std::size_t k = 0; k < walls.size(); ++k) {
         layout.placed->add(layout.links + k, walls[k]);

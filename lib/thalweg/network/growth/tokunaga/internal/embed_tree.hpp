@@ -10,8 +10,8 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/core/vec.hpp>
+#include <thalweg/geometry/segment_grid.hpp>
 #include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
-#include <thalweg/network/planform/internal/segment_grid.hpp>
 
 namespace thalweg::network {
 
@@ -19,7 +19,7 @@ namespace thalweg::network {
 Vec2 centroid_of(std::vector<Vec2> const& ring);
 
 /// The sides of a ring.
-std::vector<Segment> sides_of(std::vector<Vec2> const& ring);
+std::vector<geometry::Segment> sides_of(std::vector<Vec2> const& ring);
 
 /// The nodes of a square lattice of this spacing that lie inside a ring, row by row.
 std::vector<Vec2> lattice_in(std::vector<Vec2> const& ring, double width_m);
@@ -43,9 +43,9 @@ struct ForestShare {
 
 struct Forest {
     std::vector<ForestLink> links;
-    std::vector<ForestShare> shares;  ///< by tree
-    std::vector<Segment> walls;       ///< that links keep clear of, except those at the mouths
-    std::function<bool(Vec2)> inside; ///< the area of all trees
+    std::vector<ForestShare> shares;      ///< by tree
+    std::vector<geometry::Segment> walls; ///< that links keep clear of, except those at the mouths
+    std::function<bool(Vec2)> inside;     ///< the area of all trees
     std::uint64_t seed = 7;
     double clearance = 0.35;    ///< relative to a link's length
     double min_spacing_m = 0.0; ///< [m]

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/planform/internal/segment_grid.hpp>
+#include <thalweg/geometry/segment_grid.hpp>
 
-namespace thalweg::network {
+namespace thalweg::geometry {
 
 double squared_distance(Segment const& s, Segment const& t) {
     double const ta = cross(s.a, s.b, t.a);
@@ -46,4 +46,4 @@ void SegmentGrid::remove(std::size_t number) {
     }
 }
 
-} // namespace thalweg::network
+} // namespace thalweg::geometry

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+/// \internal For the modules above this one.
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +11,7 @@
 
 #include <thalweg/core/vec.hpp>
 
-namespace thalweg::network {
+namespace thalweg::geometry {
 
 struct Segment {
     Vec2 a;
@@ -91,4 +92,4 @@ private:
     mutable std::uint32_t stamp_ = 0;
 };
 
-} // namespace thalweg::network
+} // namespace thalweg::geometry
