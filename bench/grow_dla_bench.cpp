@@ -3,17 +3,17 @@
 #include <cstdint>
 
 #include <benchmark/benchmark.h>
-#include <network/unit_step_dla.hpp>
+#include <growth/unit_step_dla.hpp>
 
-#include <thalweg/network/growth/dla/grow_dla.hpp>
+#include <thalweg/growth/dla/grow_dla.hpp>
 
 // An item is a particle; memory and tables made by the growth count. Arguments: particles, 100 S, M. The yardstick has
 // the same launch circle, return from afar and occupancy test; only its steps are unit steps.
 
 namespace {
 
-thalweg::network::DlaParams params_of(benchmark::State const& state) {
-    thalweg::network::DlaParams params;
+thalweg::growth::DlaParams params_of(benchmark::State const& state) {
+    thalweg::growth::DlaParams params;
     params.particles = state.range(0);
     params.sticking = static_cast<double>(state.range(1)) / 100.0;
     params.visits = static_cast<int>(state.range(2));
@@ -34,7 +34,7 @@ void BM_grow_dla_unit_steps(benchmark::State& state) {
 }
 
 void BM_grow_dla(benchmark::State& state) {
-    measure(state, [](thalweg::network::DlaParams const& params) { return thalweg::network::grow_dla(params); });
+    measure(state, [](thalweg::growth::DlaParams const& params) { return thalweg::growth::grow_dla(params); });
 }
 
 } // namespace

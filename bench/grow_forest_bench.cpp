@@ -4,10 +4,10 @@
 #include <vector>
 
 #include <benchmark/benchmark.h>
-#include <network/plain_forest.hpp>
+#include <growth/plain_forest.hpp>
 
-#include <thalweg/network/growth/forest/coast.hpp>
-#include <thalweg/network/growth/forest/grow_forest.hpp>
+#include <thalweg/growth/forest/coast.hpp>
+#include <thalweg/growth/forest/grow_forest.hpp>
 
 // An item is a cell of the grid, all of it land; growth goes on until it is full. Arguments: cells a side, cells a
 // step. The yardstick has the rules written out: unit steps, and every question asked of all particles.
@@ -23,7 +23,7 @@ thalweg::Grid square(std::int64_t side) {
 
 void BM_plant_forest_unit_steps(benchmark::State& state) {
     thalweg::Mask const land(square(state.range(0)), 1);
-    thalweg::network::ForestParams params;
+    thalweg::growth::ForestParams params;
     params.step_cells = state.range(1);
     for ([[maybe_unused]] auto _ : state) {
         auto const forest = plain_forest::grow(land, {{0, 0}}, params);
@@ -34,11 +34,11 @@ void BM_plant_forest_unit_steps(benchmark::State& state) {
 
 void BM_plant_forest(benchmark::State& state) {
     thalweg::Mask const land(square(state.range(0)), 1);
-    auto const outlets = thalweg::network::spread_outlets(land, thalweg::network::coast_cells(land));
-    thalweg::network::ForestParams params;
+    auto const outlets = thalweg::growth::spread_outlets(land, thalweg::growth::coast_cells(land));
+    thalweg::growth::ForestParams params;
     params.step_cells = state.range(1);
     for ([[maybe_unused]] auto _ : state) {
-        auto const planted = thalweg::network::plant_forest(land, outlets, params);
+        auto const planted = thalweg::growth::plant_forest(land, outlets, params);
         benchmark::DoNotOptimize(planted.particles);
     }
     state.SetItemsProcessed(state.iterations() * land.cells());
@@ -46,7 +46,7 @@ void BM_plant_forest(benchmark::State& state) {
 
 void BM_shape_island(benchmark::State& state) {
     for ([[maybe_unused]] auto _ : state) {
-        auto const land = thalweg::network::shape_island(square(state.range(0)));
+        auto const land = thalweg::growth::shape_island(square(state.range(0)));
         benchmark::DoNotOptimize(land.values().data());
     }
     state.SetItemsProcessed(state.iterations() * state.range(0) * state.range(0));

@@ -19,10 +19,10 @@
 #include <thalweg/flow/route.hpp>
 #include <thalweg/fractal/midpoint.hpp>
 #include <thalweg/geometry/tin_of_dem.hpp>
+#include <thalweg/growth/dla/grow_dla.hpp>
+#include <thalweg/growth/forest/coast.hpp>
+#include <thalweg/growth/forest/grow_forest.hpp>
 #include <thalweg/io/raster/dem_derivatives.hpp>
-#include <thalweg/network/growth/dla/grow_dla.hpp>
-#include <thalweg/network/growth/forest/coast.hpp>
-#include <thalweg/network/growth/forest/grow_forest.hpp>
 #include <thalweg/network/planform/meander.hpp>
 #include <thalweg/network/vectorise/vectorise.hpp>
 #include <thalweg/solver/grid/poisson.hpp>
@@ -53,10 +53,10 @@ Grid square(std::int64_t side) {
     return {side, side, 10.0, 0.0, 10.0 * static_cast<double>(side), ""};
 }
 
-network::PlantedForest forest(std::int64_t side, std::int64_t step) {
+growth::PlantedForest forest(std::int64_t side, std::int64_t step) {
     Mask const land(square(side), 1);
-    auto const outlets = network::spread_outlets(land, network::coast_cells(land));
-    return network::plant_forest(land, outlets, {.step_cells = step}, run);
+    auto const outlets = growth::spread_outlets(land, growth::coast_cells(land));
+    return growth::plant_forest(land, outlets, {.step_cells = step}, run);
 }
 
 Valley no_rivers(Grid const& grid) {
@@ -76,7 +76,7 @@ struct Kernel {
 };
 
 std::vector<Kernel> const kernels{
-    {"grow_dla", [] { return [] { network::grow_dla({.particles = 10'000, .sticking = 1.0, .visits = 1}, run); }; }},
+    {"grow_dla", [] { return [] { growth::grow_dla({.particles = 10'000, .sticking = 1.0, .visits = 1}, run); }; }},
     {"plant_forest", [] { return [] { forest(192, 5); }; }},
     {"meander",
      [] {

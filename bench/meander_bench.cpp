@@ -5,8 +5,8 @@
 #include <benchmark/benchmark.h>
 
 #include <thalweg/flow/catchments.hpp>
-#include <thalweg/network/growth/forest/coast.hpp>
-#include <thalweg/network/growth/forest/grow_forest.hpp>
+#include <thalweg/growth/forest/coast.hpp>
+#include <thalweg/growth/forest/grow_forest.hpp>
 #include <thalweg/network/planform/meander.hpp>
 
 // Bends of a forest's rivers, and the growth of the forest as the yardstick. One thread. An item is a vertex.
@@ -16,13 +16,13 @@ namespace {
 
 using namespace thalweg;
 
-network::PlantedForest planted(benchmark::State const& state, Run const& run) {
+growth::PlantedForest planted(benchmark::State const& state, Run const& run) {
     Grid grid;
     grid.width = grid.height = state.range(0);
     Mask const land(grid, 1);
-    network::ForestParams params;
+    growth::ForestParams params;
     params.step_cells = state.range(1);
-    return network::plant_forest(land, network::spread_outlets(land, network::coast_cells(land)), params, run);
+    return growth::plant_forest(land, growth::spread_outlets(land, growth::coast_cells(land)), params, run);
 }
 
 Run one_thread() {

@@ -8,7 +8,7 @@
 #include <map>
 
 #include <thalweg/core/stream_network.hpp>
-#include <thalweg/network/growth/dla/grow_dla.hpp>
+#include <thalweg/growth/dla/grow_dla.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
 #include <thalweg/network/vectorise/vectorise.hpp>
@@ -20,12 +20,12 @@ int main() {
     //! [verb]
     // A verb takes its input and its parameters, and gives a value. What is left out has a default, where one is right
     // for all.
-    network::Cluster const cluster = network::grow_dla({.particles = 20000, .sticking = 0.85, .visits = 3, .seed = 7});
+    growth::Cluster const cluster = growth::grow_dla({.particles = 20000, .sticking = 0.85, .visits = 3, .seed = 7});
     //! [verb]
 
     //! [network]
     // One arm of the cluster becomes a basin: its mouth is the seed of the cluster.
-    network::Branch const branch = network::pick_branch(cluster, {network::BranchChoice::largest});
+    growth::Branch const branch = growth::pick_branch(cluster, {growth::BranchChoice::largest});
 
     // Up to here there were cells of a lattice; a grid gives them a place on the ground, 30 m a cell unless told
     // otherwise.

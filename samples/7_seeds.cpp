@@ -20,9 +20,9 @@ struct Figures {
 };
 
 Figures of_seed(std::uint64_t seed, Run const& run) {
-    network::TokunagaTree const tree = network::grow_tokunaga({.seed = seed, .generator = 3, .order = 6}, run);
+    growth::TokunagaTree const tree = growth::grow_tokunaga({.seed = seed, .generator = 3, .order = 6}, run);
     std::vector<std::int64_t> down;
-    for (network::TreeLink const& link : tree.links) {
+    for (growth::TreeLink const& link : tree.links) {
         down.push_back(link.down);
     }
     network::StreamCounts const counts = network::count_streams(down);

@@ -20,6 +20,7 @@
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/river_files.hpp>
+#include <thalweg/core/rosgen.hpp>
 #include <thalweg/core/run/beside.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/kept.hpp>

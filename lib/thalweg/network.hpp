@@ -2,20 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// Nothing, or drawn lines → river networks: grown, imported, pruned, bent, ordered, with heights and cells.
+/// Lines or a mask → river networks: imported, traced, pruned, bent, ordered, with heights and cells.
 #include <thalweg/network/channels/channels.hpp>
 #include <thalweg/network/channels/lakes.hpp>
 #include <thalweg/network/channels/side_valleys.hpp>
 #include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/elevation/river_types.hpp>
 #include <thalweg/network/elevation/set_heights.hpp>
-#include <thalweg/network/growth/dla/grow_dla.hpp>
-#include <thalweg/network/growth/forest/coast.hpp>
-#include <thalweg/network/growth/forest/grow_forest.hpp>
-#include <thalweg/network/growth/tokunaga/embed_tree.hpp>
-#include <thalweg/network/growth/tokunaga/grow_strokes.hpp>
-#include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
-#include <thalweg/network/growth/tokunaga/lsystem.hpp>
 #include <thalweg/network/import/choose_cell.hpp>
 #include <thalweg/network/import/from_file.hpp>
 #include <thalweg/network/import/import_lines.hpp>

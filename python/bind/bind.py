@@ -20,6 +20,7 @@ MODULES = [
     "geometry",
     "solver",
     "flow",
+    "growth",
     "network",
     "skeleton",
     "surface",
@@ -48,7 +49,7 @@ LEFT_OUT = [
     ),
     (r"solver::.*", "no stage: what stages solve with"),
     (
-        r"\w+::name_of|network::rosgen_of|io::(quantity_of|schema_named|point_format|tin_format|network_format)",
+        r"\w+::name_of|io::(quantity_of|schema_named|point_format|tin_format|network_format)",
         "a word is a str",
     ),
     (
@@ -57,7 +58,7 @@ LEFT_OUT = [
         r"|web_pyramid|web_tiles_at|write_web_tiles|lines_in_degrees)",
         "files and formats inside io",
     ),
-    (r"(skeleton|fractal|network)::(check|check_targets|require_growth|kept_heights|noise_row|stencil_weights)", "a part of a stage"),
+    (r"(skeleton|fractal|growth|network)::(check|check_targets|require_growth|kept_heights|noise_row|stencil_weights)", "a part of a stage"),
     (r"measure::relief_range", "by the number of a metric, which relief_rows names"),
     (r"geometry::put_in_order|recipe::(un)?set_key", "it changes its argument: see by_hand.cpp for what there is instead"),
     (r"io::write_geopackage", "see by_hand.cpp"),

@@ -280,14 +280,14 @@ void require_sound(flow::FlowField const& drainage) {
     }
 }
 
-void require_sound(network::TokunagaTree const& tree) {
-    auto const count = static_cast<network::LinkId>(tree.links.size());
+void require_sound(growth::TokunagaTree const& tree) {
+    auto const count = static_cast<growth::LinkId>(tree.links.size());
     bool fits = count > 0;
-    for (network::LinkId i = 0; i < count; ++i) {
-        network::TreeLink const& link = tree.links[i];
+    for (growth::LinkId i = 0; i < count; ++i) {
+        growth::TreeLink const& link = tree.links[i];
         fits =
             fits && (i == 0 ? link.down == -1 : link.down >= 0 && link.down < i) && link.turn >= -2 && link.turn <= 2;
-        for (network::LinkId const up : link.up) {
+        for (growth::LinkId const up : link.up) {
             fits = fits && (up == -1 || (up > i && up < count));
         }
     }
@@ -296,7 +296,7 @@ void require_sound(network::TokunagaTree const& tree) {
     }
 }
 
-void require_sound(network::LSystem const& system) {
+void require_sound(growth::LSystem const& system) {
     for (auto const& [sign, words] : system.rules) {
         if (words.empty()) {
             throw BadInput(fmt::format("LSystem: the sign {} has no rule", sign));

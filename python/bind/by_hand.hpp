@@ -11,8 +11,8 @@
 #include <thalweg/core/tin.hpp>
 #include <thalweg/draw/picture.hpp>
 #include <thalweg/flow/route.hpp>
+#include <thalweg/growth/tokunaga/lsystem.hpp>
 #include <thalweg/network/channels/channels.hpp>
-#include <thalweg/network/growth/tokunaga/lsystem.hpp>
 
 /// What bind.py does not read from the headers: exceptions, classes, functions that change their arguments.
 namespace thalweg::python {
@@ -44,8 +44,8 @@ void require_sound(network::ChannelsOfArcs const& drawn);
 void require_sound(ElevatedNetwork const& network);
 void require_sound(RiverLine const& line);
 void require_sound(flow::FlowField const& drainage);
-void require_sound(network::TokunagaTree const& tree);
-void require_sound(network::LSystem const& system);
+void require_sound(growth::TokunagaTree const& tree);
+void require_sound(growth::LSystem const& system);
 
 /// The exceptions of the library, and how they become those of Python.
 void declare_errors(py::module_& module);

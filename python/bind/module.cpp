@@ -14,6 +14,7 @@ THALWEG_OF_MODULE(core)
 THALWEG_OF_MODULE(geometry)
 THALWEG_OF_MODULE(solver)
 THALWEG_OF_MODULE(flow)
+THALWEG_OF_MODULE(growth)
 THALWEG_OF_MODULE(network)
 THALWEG_OF_MODULE(skeleton)
 THALWEG_OF_MODULE(surface)
@@ -39,12 +40,13 @@ struct Module {
     void (*define)(py::module_&);
 };
 
-constexpr std::array<Module, 17> modules = {{
+constexpr std::array<Module, 18> modules = {{
     {"geometry", "Lines and points: intersections, TINs, Voronoi diagrams, medial lines.", declare_geometry,
      define_geometry},
     {"solver", "Values of the solvers that stages take.", declare_solver, define_solver},
     {"flow", "A DEM: flow directions, conditioning, catchments, streams.", declare_flow, define_flow},
-    {"network", "River networks: grown, imported, pruned, bent, ordered, with heights.", declare_network,
+    {"growth", "River networks grown from nothing, in a region or along drawn strokes.", declare_growth, define_growth},
+    {"network", "River networks: imported, traced, pruned, bent, ordered, with heights.", declare_network,
      define_network},
     {"skeleton", "Heights that a surface must pass through: random fields and points, ridges, regression.",
      declare_skeleton, define_skeleton},
@@ -95,9 +97,9 @@ PYBIND11_MODULE(_core, module) {
     for (std::size_t i = 0; i < modules.size(); ++i) {
         modules[i].define(made[i]);
     }
-    define_io_by_hand(made[10]);
-    define_recipe_by_hand(made[11]);
-    define_report_by_hand(made[13]);
+    define_io_by_hand(made[11]);
+    define_recipe_by_hand(made[12]);
+    define_report_by_hand(made[14]);
     module.attr("MODULES") = py::tuple(names);
     py::list values;
     for (auto const& [name, value] : module.attr("__dict__").cast<py::dict>()) {

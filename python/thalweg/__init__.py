@@ -3,8 +3,8 @@
 """Terrain from river networks, and river networks for terrain.
 
 make() makes terrain from a recipe, from rivers or from a DEM, as the program `thalweg make` does. Every stage of the library
-has its own name in the modules network, skeleton, surface, fractal, blend, flow, measure, geometry, draw and io; what the
-program does with them is in recipe, terrain, report, export, members and commands.
+has its own name in the modules growth, network, skeleton, surface, fractal, blend, flow, measure, geometry, draw and io; what
+the program does with them is in recipe, terrain, report, export, members and commands.
 
 Rasters are numpy arrays with a grid (Raster), rows from the north, float32 for heights, NaN for no data. A raster that a stage
 returns shows the library's memory, and one that a stage takes is read in place: what must be converted first is said by a
@@ -26,8 +26,8 @@ from typing import TYPE_CHECKING
 from thalweg import _core
 
 if TYPE_CHECKING:
-    from thalweg import (blend, commands, draw, export, flow, fractal, geometry, io, measure, members, network, recipe, report,
-                         skeleton, solver, surface, terrain)
+    from thalweg import (blend, commands, draw, export, flow, fractal, geometry, growth, io, measure, members, network, recipe,
+                         report, skeleton, solver, surface, terrain)
     from thalweg._core import *
     from thalweg._core import BadInput, BadParameter, Cancelled, Error, IoError, NotConverged
 
@@ -50,7 +50,7 @@ del _kind, _name
 __version__ = _core.version()
 __all__ = ["BadInput", "BadParameter", "Cancelled", "ConversionWarning", "Error", "IoError", "Member", "NotConverged", "Raster",
            "Terrain", "TerrainWarning", "UnitWarning", "__version__", "blend", "commands", "draw", "ensemble", "export", "flow",
-           "forecast", "fractal", "from_geodataframe", "from_networkx", "geometry", "io", "make", "measure", "members",
+           "forecast", "fractal", "from_geodataframe", "from_networkx", "geometry", "growth", "io", "make", "measure", "members",
            "network", "rebuild", "recipe", "report", "skeleton", "solver", "surface", "terrain", "to_geodataframe",
            "to_networkx"]
 __all__ += [name for name in _core.VALUES if name not in __all__]

@@ -25,6 +25,13 @@
 #include <thalweg/geometry/natural_neighbours.hpp>
 #include <thalweg/geometry/tin_of_dem.hpp>
 #include <thalweg/geometry/triangulate.hpp>
+#include <thalweg/growth/dla/grow_dla.hpp>
+#include <thalweg/growth/forest/coast.hpp>
+#include <thalweg/growth/forest/grow_forest.hpp>
+#include <thalweg/growth/tokunaga/embed_tree.hpp>
+#include <thalweg/growth/tokunaga/grow_strokes.hpp>
+#include <thalweg/growth/tokunaga/grow_tokunaga.hpp>
+#include <thalweg/growth/tokunaga/lsystem.hpp>
 #include <thalweg/make/laws.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/network/channels/channels.hpp>
@@ -33,13 +40,6 @@
 #include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/elevation/river_types.hpp>
 #include <thalweg/network/elevation/set_heights.hpp>
-#include <thalweg/network/growth/dla/grow_dla.hpp>
-#include <thalweg/network/growth/forest/coast.hpp>
-#include <thalweg/network/growth/forest/grow_forest.hpp>
-#include <thalweg/network/growth/tokunaga/embed_tree.hpp>
-#include <thalweg/network/growth/tokunaga/grow_strokes.hpp>
-#include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
-#include <thalweg/network/growth/tokunaga/lsystem.hpp>
 #include <thalweg/network/import/import_lines.hpp>
 #include <thalweg/network/import/land_and_sea.hpp>
 #include <thalweg/network/order/order.hpp>
@@ -488,9 +488,9 @@ void print_diffused(Valley const& valley, Run const& run) {
     print("diffuse, explicit", hash_of(surface::diffuse({valley.z}, params, run).dem));
 }
 
-Fnv hash_of(network::TokunagaTree const& tree) {
+Fnv hash_of(growth::TokunagaTree const& tree) {
     Fnv fnv;
-    for (network::TreeLink const& link : tree.links) {
+    for (growth::TreeLink const& link : tree.links) {
         fnv.add(link.down);
         fnv.add_all(link.up);
         fnv.put(static_cast<std::int64_t>(link.order), static_cast<std::int64_t>(link.turn));
@@ -520,30 +520,30 @@ void print_water(Raster<float> const& land, StreamNetwork const& rivers, Run con
 }
 
 void print_trees(Run const& run) {
-    network::TokunagaTree const tree = network::grow_tokunaga({.generator = 3, .order = 5}, run);
+    growth::TokunagaTree const tree = growth::grow_tokunaga({.generator = 3, .order = 5}, run);
     print("grow_tokunaga", hash_of(tree));
     Fnv word;
-    for (char const letter : network::write_lsystem(tree)) {
+    for (char const letter : growth::write_lsystem(tree)) {
         word.add(static_cast<std::int64_t>(letter));
     }
     print("write_lsystem", word);
     Fnv turtle;
-    network::LSystem const rules =
-        network::read_rules("axiom G\niterations 6\nG -> F[--G]F[-G][+G]\nF -> FF\nF -> F[++G]F", "");
-    for (auto const& line : network::draw_word(network::rewrite(rules, 7, run), rules.angle_deg, run)) {
+    growth::LSystem const rules =
+        growth::read_rules("axiom G\niterations 6\nG -> F[--G]F[-G][+G]\nF -> FF\nF -> F[++G]F", "");
+    for (auto const& line : growth::draw_word(growth::rewrite(rules, 7, run), rules.angle_deg, run)) {
         turtle.each(line);
     }
     print("rewrite, draw_word", turtle);
-    network::EmbedParams const params{.region = {{0, 0}, {4000, 0}, {4000, 2500}, {1500, 2000}, {0, 4000}},
-                                      .mouth = {2000, 0}};
-    print("embed_tree", hash_of(network::embed_tree(tree, params, run).network));
+    growth::EmbedParams const params{.region = {{0, 0}, {4000, 0}, {4000, 2500}, {1500, 2000}, {0, 4000}},
+                                     .mouth = {2000, 0}};
+    print("embed_tree", hash_of(growth::embed_tree(tree, params, run).network));
     RiverLines strokes;
     strokes.lines.resize(2);
     strokes.lines[0].vertices = {{500, 0, 0}, {700, 900, 0}, {500, 1900, 0}};
     strokes.lines[1].vertices = {{696, 880, 0}, {1500, 1600, 0}};
     strokes.lines[1].lambda = 3;
     Grid const grid{200, 200, 10.0, 0.0, 2000.0, ""};
-    print("grow_strokes", hash_of(network::grow_strokes(strokes, grid, {}, run).network));
+    print("grow_strokes", hash_of(growth::grow_strokes(strokes, grid, {}, run).network));
 }
 
 /// Land in equilibrium, and all that stands before and after it.
@@ -587,15 +587,15 @@ void print_forest(Run const& run) {
     grid.width = 320;
     grid.height = 240;
     grid.cell_m = 30.0;
-    Mask const island = network::shape_island(grid, {0.8, 7}, run);
+    Mask const island = growth::shape_island(grid, {0.8, 7}, run);
     print("shape_island", hash_of(island));
-    std::vector<Cell> const outlets = network::spread_outlets(island, network::coast_cells(island), {}, run);
+    std::vector<Cell> const outlets = growth::spread_outlets(island, growth::coast_cells(island), {}, run);
     print("spread_outlets", hash_of(outlets));
-    network::ForestParams slow;
+    growth::ForestParams slow;
     slow.sticking = 0.6;
     slow.visits = 2;
-    print("plant_forest S=0.6 M=2", hash_of(network::plant_forest(island, outlets, slow, run).network));
-    StreamNetwork const planted = network::plant_forest(island, outlets, {}, run).network;
+    print("plant_forest S=0.6 M=2", hash_of(growth::plant_forest(island, outlets, slow, run).network));
+    StreamNetwork const planted = growth::plant_forest(island, outlets, {}, run).network;
     print("plant_forest", hash_of(planted));
     print("land_behind_outlets", hash_of(network::land_behind_outlets(planted, grid, run)));
     RiverLines coast;
@@ -611,12 +611,12 @@ int main(int count, char** words) {
 
     print("chance", hash_of_chance());
     print("elementary", hash_of_elementary());
-    network::DlaParams const thick{.particles = 3000, .sticking = 0.3, .visits = 1, .seed = 11};
-    print("grow_dla S=0.3 M=1", hash_of(network::grow_dla(thick, run).cells));
-    network::Cluster const cluster = network::grow_dla({.particles = 6000}, run);
+    growth::DlaParams const thick{.particles = 3000, .sticking = 0.3, .visits = 1, .seed = 11};
+    print("grow_dla S=0.3 M=1", hash_of(growth::grow_dla(thick, run).cells));
+    growth::Cluster const cluster = growth::grow_dla({.particles = 6000}, run);
     print("grow_dla S=0.85 M=3", hash_of(cluster.cells));
     print_forest(run);
-    network::Branch const branch = network::pick_branch(cluster);
+    growth::Branch const branch = growth::pick_branch(cluster);
     print("pick_branch", hash_of(branch.cells));
     recipe::FramedBranch const framed = recipe::frame_branch(branch, {});
     Mask const skeleton = network::thin(framed.mask, run);

@@ -11,7 +11,7 @@ import sys
 # Which modules a module may include, besides itself. Stage modules meet in those of the program, which include
 # those before them.
 BELOW = ["core", "geometry", "solver", "flow"]
-STAGES = ["network", "skeleton", "surface", "fractal", "blend", "measure", "draw", "io"]
+STAGES = ["growth", "network", "skeleton", "surface", "fractal", "blend", "measure", "draw", "io"]
 PROGRAM = ["recipe", "make", "report", "export", "ensemble", "commands"]
 MODULES = {"core": [], "geometry": ["core"], "solver": ["core"], "flow": ["core"],
            "studio": BELOW + STAGES + PROGRAM + ["serve"]}

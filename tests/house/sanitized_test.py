@@ -9,8 +9,8 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-MODULES = ["core", "geometry", "solver", "flow", "network", "skeleton", "surface", "fractal", "blend", "measure", "draw", "io",
-           "serve", "recipe", "make", "report", "export", "ensemble", "commands", "studio"]
+MODULES = ["core", "geometry", "solver", "flow", "growth", "network", "skeleton", "surface", "fractal", "blend", "measure", "draw",
+           "io", "serve", "recipe", "make", "report", "export", "ensemble", "commands", "studio"]
 
 
 def environment():

@@ -10,9 +10,9 @@
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/route.hpp>
+#include <thalweg/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/make/make.hpp>
-#include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/network/order/order.hpp>
 
 namespace laws_test {
@@ -49,7 +49,7 @@ void near_nature(std::vector<LawRow> const& rows, std::string_view key, double s
 TEST(Laws, OfAnExactTokunagaTreeAreItsOwn) {
     for (int const order : {4, 6, 9}) {
         std::vector<std::int64_t> down;
-        for (network::TreeLink const& link : network::grow_tokunaga({.generator = 2, .order = order}).links) {
+        for (growth::TreeLink const& link : growth::grow_tokunaga({.generator = 2, .order = order}).links) {
             down.push_back(link.down);
         }
         auto const law = measure::tokunaga(network::count_streams(down).side);

@@ -55,7 +55,7 @@ def in_a_process(program, *, signal_after=None, environment=None):
 
 class Arguments(unittest.TestCase):
     def test_results_are_arrays_that_keep_their_owner(self):
-        cells = thalweg.network.grow_dla(particles=500).cells
+        cells = thalweg.growth.grow_dla(particles=500).cells
         gc.collect()
         self.assertEqual(cells.shape, (500, 2))
         self.assertFalse(cells.flags.writeable)
@@ -102,8 +102,8 @@ class Arguments(unittest.TestCase):
     def test_every_way_to_give_a_record(self):
         grid = thalweg.Grid(30, 20, 10.0)
         self.assertEqual(thalweg.Grid(width=30, height=20, cell_m=10.0).as_dict(), grid.as_dict())
-        by_dict = thalweg.network.outline({"width": 30, "height": 20, "cell_m": 10.0})
-        np.testing.assert_array_equal(by_dict, thalweg.network.outline(grid))
+        by_dict = thalweg.growth.outline({"width": 30, "height": 20, "cell_m": 10.0})
+        np.testing.assert_array_equal(by_dict, thalweg.growth.outline(grid))
         nested = thalweg.surface.dilate(valley(), increment={"increment": "uniform"}, metric="euclid")
         self.assertGreater(nested.rise_m, 0)
 
@@ -157,7 +157,7 @@ class Arguments(unittest.TestCase):
              thalweg.BadInput, "vertex"),
             (lambda: thalweg.Grid(1, 2, 3, 4, 5, "", 7), TypeError, "7 arguments are given"),
             (lambda: thalweg.Grid(width=1, widht=2), TypeError, "Did you mean 'width'?"),
-            (lambda: thalweg.network.grow_dla(seed=2**70), TypeError, "seed"),
+            (lambda: thalweg.growth.grow_dla(seed=2**70), TypeError, "seed"),
             (lambda: thalweg.flow.route(None), TypeError, "dem is None; it must be a raster"),
             (lambda: thalweg.network.random_turn(np.array(3.0)), TypeError, "it must be a whole number"),
             (lambda: thalweg.nearest_cells(np.zeros((4, 4), np.uint8)), thalweg.BadInput, "no cell is marked"),
@@ -174,8 +174,8 @@ class Arguments(unittest.TestCase):
             (lambda: thalweg.ElevatedNetwork(net, [1.0], []), thalweg.BadInput, "heights are one per node"),
             (lambda: thalweg.network.fill_heights({"lines": [{"vertices": []}], "has_z": True}, 1.0), thalweg.BadInput, "it needs two"),
             (lambda: thalweg.skeleton.separable_ar(thalweg.Grid(2**40, 2**40)), thalweg.BadInput, "at most 2.40 cells"),
-            (lambda: thalweg.network.write_lsystem({}), thalweg.BadInput, "numbered from the outlet"),
-            (lambda: thalweg.network.rewrite({"axiom": "F", "rules": {"F": []}}, 1), thalweg.BadInput, "has no rule"),
+            (lambda: thalweg.growth.write_lsystem({}), thalweg.BadInput, "numbered from the outlet"),
+            (lambda: thalweg.growth.rewrite({"axiom": "F", "rules": {"F": []}}, 1), thalweg.BadInput, "has no rule"),
             (lambda: thalweg.draw.map(np.zeros((4, 4), np.float32), np.ones((4, 4), np.uint8), orders=thalweg.network.order(net)),
              thalweg.BadInput, "orders without the network"),
             (lambda: thalweg.geometry.triangulate(np.ma.array(np.ones((3, 3)), mask=np.eye(3))), TypeError, "without masked ones"),
@@ -373,7 +373,7 @@ class Arguments(unittest.TestCase):
 
         for record in (drainage, streams, streams.network, streams.network.planform, profiles, dem.grid, thalweg.flow.route_dinf(dem, drainage),
                        thalweg.network.order(streams.network.planform), thalweg.measure.statistics(dem), thalweg.measure.hypsometry(dem),
-                       thalweg.network.grow_tokunaga(order=3), thalweg.flow.condition(dem, np.full(dem.shape, np.nan, np.float32)),
+                       thalweg.growth.grow_tokunaga(order=3), thalweg.flow.condition(dem, np.full(dem.shape, np.nan, np.float32)),
                        thalweg.measure.relief(dem, drainage, thalweg.measure.statistics(dem))):
             with self.subTest(type(record).__name__):
                 same(pickle.loads(pickle.dumps(record)), record)
@@ -419,7 +419,7 @@ class Running(unittest.TestCase):
     def test_ctrl_c_stops_the_work(self):
         for name, work in {
             "equilibrium": "thalweg.make({'grid': {'width': 4096, 'height': 4096}})",
-            "cluster": "thalweg.network.grow_dla(particles=5000000)",
+            "cluster": "thalweg.growth.grow_dla(particles=5000000)",
             "statistics": "thalweg.make({'grid': {'width': 2048, 'height': 2048}, 'statistics': {'std': 100.0, 'slope': 0.3}})",
             "diffusion": "thalweg.surface.diffuse(z, mode='explicit_sweeps', iterations=10**9)",
         }.items():
@@ -466,7 +466,7 @@ class Running(unittest.TestCase):
         thread = threading.Thread(target=count)
         thread.start()
         begin = time.monotonic()
-        thalweg.network.grow_dla(particles=60000)
+        thalweg.growth.grow_dla(particles=60000)
         seconds = time.monotonic() - begin
         ended.set()
         thread.join()

@@ -251,7 +251,7 @@ TEST(Frame, OneCell) {
 
 TEST(Frame, ABranchIsKeptWholeAndItsFrameGivesItselfAgain) {
     ASSERT_TRUE(rc::check("box and at least 5 % around it; the same grid when it is asked for", [] {
-        network::Branch branch;
+        growth::Branch branch;
         auto const cells = *rc::gen::inRange(1, 60);
         for (int i = 0; i < cells; ++i) {
             branch.cells.push_back(

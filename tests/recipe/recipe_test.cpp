@@ -163,7 +163,7 @@ TEST(Recipe, SetTakesBareWordsAndNumbers) {
     set_key(recipe, "grid.origin=[1000, 2000]");
     set_key(recipe, "grid.clip=true");
     EXPECT_EQ(recipe.surface->dilate.increment.increment, "3-0.01*x");
-    EXPECT_EQ(recipe.network->branch, network::BranchChoice::west);
+    EXPECT_EQ(recipe.network->branch, growth::BranchChoice::west);
     EXPECT_EQ(recipe.network->prune_cells, 35.0);
     EXPECT_EQ((*recipe.grid.origin)[1], 2000.0);
     EXPECT_TRUE(recipe.grid.clip);
@@ -182,7 +182,7 @@ TEST(Recipe, KeysAndSectionsAreTakenBack) {
         unset_key(recipe, path);
     }
     EXPECT_FALSE(recipe.network->prune_cells);
-    EXPECT_EQ(recipe.network->branch, network::BranchChoice::largest);
+    EXPECT_EQ(recipe.network->branch, growth::BranchChoice::largest);
     EXPECT_EQ(recipe.patches.size(), 1U);
     EXPECT_EQ(recipe.patches[0].source, "");
     EXPECT_FALSE(recipe.detail);
@@ -251,15 +251,15 @@ TEST(RecipeKeys, WordsStandInTheOrderOfTheirEnumeration) {
         {"network.source", "lines", [](Recipe const& r) { return r.network->source == Source::lines; }},
         {"network.heights", "ends", [](Recipe const& r) { return r.network->heights == Heights::ends; }},
         {"network.inland", "coast", [](Recipe const& r) { return r.network->inland == InlandEnds::coast; }},
-        {"network.rosgen", "G", [](Recipe const& r) { return r.network->rosgen == network::Rosgen::g; }},
+        {"network.rosgen", "G", [](Recipe const& r) { return r.network->rosgen == Rosgen::g; }},
         {"network.rosgen", "by_order", [](Recipe const& r) { return !r.network->rosgen; }},
         {"network.rosgen_slope", "uniform",
          [](Recipe const& r) { return r.network->rosgen_slope == network::SlopeDraw::uniform; }},
         {"network.dla.rule", "stick_then_count",
-         [](Recipe const& r) { return r.network->dla.rule == network::VisitRule::stick_then_count; }},
-        {"network.dla.branch", "all", [](Recipe const& r) { return r.network->branch == network::BranchChoice::all; }},
+         [](Recipe const& r) { return r.network->dla.rule == growth::VisitRule::stick_then_count; }},
+        {"network.dla.branch", "all", [](Recipe const& r) { return r.network->branch == growth::BranchChoice::all; }},
         {"network.tokunaga.rule", "plane",
-         [](Recipe const& r) { return r.network->tokunaga.rule == network::SideRule::plane; }},
+         [](Recipe const& r) { return r.network->tokunaga.rule == growth::SideRule::plane; }},
         {"network.tokunaga.mouth", "west", [](Recipe const& r) { return r.network->tokunaga.mouth == Side::west; }},
         {"network.forest.shape", "island",
          [](Recipe const& r) { return r.network->forest.shape == LandShape::island; }},

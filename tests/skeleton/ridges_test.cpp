@@ -16,9 +16,9 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/nearby.hpp>
+#include <thalweg/growth/dla/grow_dla.hpp>
+#include <thalweg/growth/tokunaga/embed_tree.hpp>
 #include <thalweg/network/elevation/set_heights.hpp>
-#include <thalweg/network/growth/dla/grow_dla.hpp>
-#include <thalweg/network/growth/tokunaga/embed_tree.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
 #include <thalweg/network/vectorise/vectorise.hpp>
@@ -51,17 +51,17 @@ Land raised(StreamNetwork const& plan, Grid grid) {
 /// A square filled with a Tokunaga network, far from the origin.
 Land tokunaga(std::uint64_t seed, int generator, int order) {
     Grid const grid{200, 200, 10.0, 500000.0, 4500000.0, ""};
-    network::EmbedParams params;
+    growth::EmbedParams params;
     params.seed = seed;
     params.region = {{500040, 4498040}, {501960, 4498040}, {501960, 4499960}, {500040, 4499960}};
     params.mouth = {501000, 4498040};
-    auto const tree = network::grow_tokunaga({.seed = seed, .generator = generator, .order = order});
-    return raised(network::embed_tree(tree, params).network, grid);
+    auto const tree = growth::grow_tokunaga({.seed = seed, .generator = generator, .order = order});
+    return raised(growth::embed_tree(tree, params).network, grid);
 }
 
 /// A branch of a cluster: all vertices are centres of cells, whole circles full of them.
 Land dla(std::uint64_t seed) {
-    network::Branch const branch = network::pick_branch(network::grow_dla({.particles = 6000, .seed = seed}));
+    growth::Branch const branch = growth::pick_branch(growth::grow_dla({.particles = 6000, .seed = seed}));
     recipe::FramedBranch const framed = recipe::frame_branch(branch, {});
     StreamNetwork const traced = network::trace(network::thin(framed.mask), {framed.mouth});
     Grid const& grid = framed.mask.grid();

@@ -26,7 +26,7 @@ struct GrowOptions {
     bool shapes_tree = false; ///< --generator, --order or --rule is given
 };
 
-constexpr std::array<char const*, 3> side_rules{"tokunaga", "constant", "plane"}; // as network::SideRule
+constexpr std::array<char const*, 3> side_rules{"tokunaga", "constant", "plane"}; // as growth::SideRule
 
 nlohmann::ordered_json json_of(GrowOptions const& options, commands::GrowResult const& c) {
     return {{"generator", options.params.tree.generator},
@@ -76,7 +76,7 @@ void check_output(GrowOptions const& options, Session const& session) {
 int grow(GrowOptions& options, Session const& session) {
     check_output(options, session);
     commands::GrowParams& params = options.params;
-    params.tree.rule = static_cast<network::SideRule>(std::ranges::find(side_rules, options.rule) - side_rules.begin());
+    params.tree.rule = static_cast<growth::SideRule>(std::ranges::find(side_rules, options.rule) - side_rules.begin());
     commands::GrowResult const grown = commands::run_grow(params, session.run);
     if (!params.output.empty()) {
         print_result(session, {{"file", params.output}, {"signs", grown.word.size()}, {"lines", grown.lines}},

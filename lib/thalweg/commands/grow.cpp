@@ -9,18 +9,18 @@
 
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/draw/map.hpp>
-#include <thalweg/network/growth/tokunaga/lsystem.hpp>
+#include <thalweg/growth/tokunaga/lsystem.hpp>
 
 namespace thalweg::commands {
 
 namespace {
 
-GrowResult counted(network::TokunagaTree const& tree, int generator) {
+GrowResult counted(growth::TokunagaTree const& tree, int generator) {
     std::vector<std::int64_t> down;
-    for (network::TreeLink const& link : tree.links) {
+    for (growth::TreeLink const& link : tree.links) {
         down.push_back(link.down);
     }
-    GrowResult grown{{}, 0, network::count_streams(down), network::tokunaga_laws(generator), {}, {}};
+    GrowResult grown{{}, 0, network::count_streams(down), growth::tokunaga_laws(generator), {}, {}};
     double side = grown.laws.a;
     for (std::size_t k = 0; k < grown.streams.side.size(); ++k, side *= grown.laws.c) {
         grown.side_law.push_back(side);
@@ -46,11 +46,11 @@ draw::Format format_of_picture(std::string const& path) {
 
 GrowResult rewritten(GrowParams const& params, Run const& run) {
     constexpr std::int64_t most_bytes = 1 << 20;
-    network::LSystem const system = network::read_rules(io::read_text(params.rules, most_bytes), params.rules);
+    growth::LSystem const system = growth::read_rules(io::read_text(params.rules, most_bytes), params.rules);
     GrowResult grown;
-    grown.word = network::rewrite(system, params.tree.seed, run);
+    grown.word = growth::rewrite(system, params.tree.seed, run);
     if (!params.output.empty()) {
-        auto const lines = network::draw_word(grown.word, system.angle_deg, run);
+        auto const lines = growth::draw_word(grown.word, system.angle_deg, run);
         grown.lines = static_cast<std::int64_t>(lines.size());
         draw::LinesParams look;
         look.format = format_of_picture(params.output);
@@ -69,13 +69,13 @@ GrowResult run_grow(GrowParams const& params, Run const& run) {
     }
     refuse_if<BadParameter>(!params.output.empty(), "commands.run_grow: -o draws the word of --rules FILE: give both");
     if (params.word) {
-        network::TokunagaParams tree = params.tree;
-        tree.banks = network::BankRule::alternating; // the rules define the sides
+        growth::TokunagaParams tree = params.tree;
+        tree.banks = growth::BankRule::alternating; // the rules define the sides
         GrowResult grown;
-        grown.word = network::lsystem(tree, run);
+        grown.word = growth::lsystem(tree, run);
         return grown;
     }
-    return counted(network::grow_tokunaga(params.tree, run), params.tree.generator);
+    return counted(growth::grow_tokunaga(params.tree, run), params.tree.generator);
 }
 
 } // namespace thalweg::commands

@@ -7,17 +7,17 @@
 #include <vector>
 
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/io/files/files.hpp>
-#include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/network/order/order.hpp>
 
 namespace thalweg::commands {
 
 /// Options of run_grow().
 struct GrowParams {
-    network::TokunagaParams tree = {}; ///< its seed also decides between several rules
-    std::string rules = {};            ///< a text file with an L-system, which is rewritten instead; "": none
-    std::string output = {};           ///< a picture of the rewritten word: .svg, .png or .pdf; "": none
+    growth::TokunagaParams tree = {}; ///< its seed also decides between several rules
+    std::string rules = {};           ///< a text file with an L-system, which is rewritten instead; "": none
+    std::string output = {};          ///< a picture of the rewritten word: .svg, .png or .pdf; "": none
     io::Existing existing = io::Existing::refuse;
     bool word = false; ///< write the tree as the word of an L-system, with alternating banks
 };
@@ -27,7 +27,7 @@ struct GrowResult {
     std::string word;       ///< "": the tree was counted
     std::int64_t lines = 0; ///< in the picture
     network::StreamCounts streams;
-    network::TokunagaLaws laws;
+    growth::TokunagaLaws laws;
     std::vector<double> side_law;    ///< by k - 1: a c^(k-1)
     std::vector<double> bifurcation; ///< by order - 1: N_w / N_(w+1)
 };
@@ -36,8 +36,8 @@ struct GrowResult {
 /// file and draws it, into a file that is written completely or not at all.
 /// \param params tree or file, and options
 /// \return word or counts
-/// \throws BadParameter as network::grow_tokunaga and network::rewrite, for a picture without rules, or of another kind
-/// \throws BadInput as network::read_rules and io::OutputFile
+/// \throws BadParameter as growth::grow_tokunaga and growth::rewrite, for a picture without rules, or of another kind
+/// \throws BadInput as growth::read_rules and io::OutputFile
 GrowResult run_grow(GrowParams const& params, Run const& run = {});
 
 } // namespace thalweg::commands

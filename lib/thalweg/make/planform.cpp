@@ -33,7 +33,7 @@ Typed type_rivers(StreamNetwork network, recipe::NetworkRecipe const& wanted, Ru
     network::RiverTypes types = network::assign_types(network, network::order(network), params, run);
     NetworkDraft draft = network.draft();
     for (std::size_t a = 0; a < draft.arcs.size(); ++a) {
-        draft.arcs[a].arc.type = network::name_of(types.type[a]);
+        draft.arcs[a].arc.type = name_of(types.type[a]);
     }
     return {std::move(draft), std::move(types)};
 }

@@ -10,9 +10,9 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/river_files.hpp>
 #include <thalweg/core/stream_network.hpp>
+#include <thalweg/growth/dla/grow_dla.hpp>
 #include <thalweg/make/line_sources.hpp>
 #include <thalweg/network/elevation/river_types.hpp>
-#include <thalweg/network/growth/dla/grow_dla.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/recipe/plan.hpp>
 
@@ -68,6 +68,6 @@ Planform make_planform(recipe::Plan const& plan, Run const& run = {});
 
 /// The cluster of a recipe whose rivers are a branch of one.
 /// \internal
-network::Cluster cluster_of(recipe::Recipe const& recipe, Run const& run);
+growth::Cluster cluster_of(recipe::Recipe const& recipe, Run const& run);
 
 } // namespace thalweg::make

@@ -16,13 +16,13 @@
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/nearby.hpp>
 #include <thalweg/geometry/polylines.hpp>
+#include <thalweg/growth/dla/grow_dla.hpp>
+#include <thalweg/growth/forest/grow_forest.hpp>
+#include <thalweg/growth/tokunaga/embed_tree.hpp>
+#include <thalweg/growth/tokunaga/grow_strokes.hpp>
 #include <thalweg/make/given.hpp>
 #include <thalweg/make/internal/planform.hpp>
 #include <thalweg/network/elevation/known_heights.hpp>
-#include <thalweg/network/growth/dla/grow_dla.hpp>
-#include <thalweg/network/growth/forest/grow_forest.hpp>
-#include <thalweg/network/growth/tokunaga/embed_tree.hpp>
-#include <thalweg/network/growth/tokunaga/grow_strokes.hpp>
 #include <thalweg/network/import/land_and_sea.hpp>
 #include <thalweg/network/planform/rotate.hpp>
 #include <thalweg/network/vectorise/vectorise.hpp>
@@ -41,7 +41,7 @@ recipe::GridRecipe loosely_framed(recipe::GridRecipe frame) {
 
 /// The requested grid, or one with room for the whole branch as picked: in the former case the branch is not cut
 /// further.
-Grid turned_frame(network::Branch const& branch, Grid frame, recipe::GridRecipe const& wanted, double turn_deg) {
+Grid turned_frame(growth::Branch const& branch, Grid frame, recipe::GridRecipe const& wanted, double turn_deg) {
     frame.width = wanted.width;
     frame.height = wanted.height;
     if (frame.width == 0) {
@@ -67,22 +67,22 @@ Grid turned_frame(network::Branch const& branch, Grid frame, recipe::GridRecipe 
 }
 
 /// The arm of a cluster that becomes the rivers.
-network::Branch branch_of(network::Cluster const& cluster, recipe::Recipe const& recipe) {
-    network::BranchParams params{recipe.network->branch, 0, 0, *recipe.network->rotate_deg};
+growth::Branch branch_of(growth::Cluster const& cluster, recipe::Recipe const& recipe) {
+    growth::BranchParams params{recipe.network->branch, 0, 0, *recipe.network->rotate_deg};
     if (recipe.grid.width > 0) {
         params.max_width = recipe::room_for_network(recipe.grid.width);
         params.max_height = recipe::room_for_network(recipe.grid.height);
     }
-    return network::pick_branch(cluster, params);
+    return growth::pick_branch(cluster, params);
 }
 
 } // namespace
 
-network::Cluster cluster_of(recipe::Recipe const& recipe, Run const& run) {
+growth::Cluster cluster_of(recipe::Recipe const& recipe, Run const& run) {
     return kept_or_made(
         run, "cluster", [&] { return recipe::cluster_made_from(recipe); },
-        [&] { return network::grow_dla(recipe.network->dla, run); },
-        [](network::Cluster const& cluster) { return static_cast<std::int64_t>(cluster.cells.size() * sizeof(Cell)); });
+        [&] { return growth::grow_dla(recipe.network->dla, run); },
+        [](growth::Cluster const& cluster) { return static_cast<std::int64_t>(cluster.cells.size() * sizeof(Cell)); });
 }
 
 namespace {
@@ -92,14 +92,14 @@ SourceRivers rivers_of_cluster(recipe::Recipe const& recipe, StageLog& stage_log
     recipe::NetworkRecipe const& wanted = *recipe.network;
     NetworkStatistics statistics;
     run.at(0.0, fmt::format("grow {} particles", wanted.dla.particles).c_str());
-    network::Cluster const cluster = stage_log.stage("grow", [&] { return cluster_of(recipe, run); });
-    statistics.wide = cluster.stop == network::GrowthStop::radius;
+    growth::Cluster const cluster = stage_log.stage("grow", [&] { return cluster_of(recipe, run); });
+    statistics.wide = cluster.stop == growth::GrowthStop::radius;
     stage_log.say(fmt::format("{} particles  seed {}  radius {:.0f} cells{}", cluster.cells.size(), recipe.seed,
                               cluster.radius, statistics.wide ? ", where it stops" : ""));
     statistics.particles = static_cast<std::int64_t>(cluster.cells.size());
     statistics.walkers = cluster.walkers;
 
-    network::Branch const branch = branch_of(cluster, recipe);
+    growth::Branch const branch = branch_of(cluster, recipe);
     statistics.cut = branch.cut;
     double const turn_deg = *wanted.rotate_deg;
     recipe::FramedBranch const framed =
@@ -170,10 +170,10 @@ Region inside(Polygons const& polygons, recipe::Side mouth) {
     return region;
 }
 
-std::vector<std::int64_t> downstream(network::TokunagaTree const& tree) {
+std::vector<std::int64_t> downstream(growth::TokunagaTree const& tree) {
     std::vector<std::int64_t> down;
     down.reserve(tree.links.size());
-    for (network::TreeLink const& link : tree.links) {
+    for (growth::TreeLink const& link : tree.links) {
         down.push_back(link.down);
     }
     return down;
@@ -197,17 +197,17 @@ void judge_room(std::int64_t placed, std::int64_t dropped, Grid const& grid, Sta
 
 SourceRivers fill_region(recipe::Plan const& plan, StageLog& stage_log, Run const& run) {
     recipe::TokunagaRecipe const& wanted = plan.recipe.network->tokunaga;
-    network::TokunagaTree const& tree = *plan.tree;
+    growth::TokunagaTree const& tree = *plan.tree;
     Grid const& grid = *plan.grid;
     TokunagaStatistics statistics;
     statistics.tree = network::count_streams(downstream(tree));
     Region const region = plan.region ? inside(*plan.region, wanted.mouth) : within(grid, wanted.mouth);
-    network::EmbedParams params;
+    growth::EmbedParams params;
     params.seed = plan.recipe.seed;
     params.region = region.ring;
     params.mouth = region.mouth;
     params.min_spacing_m = wanted.spacing_cells * grid.cell_m;
-    network::EmbeddedTree embedded = stage_log.stage("embed", [&] { return network::embed_tree(tree, params, run); });
+    growth::EmbeddedTree embedded = stage_log.stage("embed", [&] { return growth::embed_tree(tree, params, run); });
     statistics.placed = embedded.placed;
     statistics.dropped = embedded.dropped;
     stage_log.say(
@@ -219,12 +219,12 @@ SourceRivers fill_region(recipe::Plan const& plan, StageLog& stage_log, Run cons
 SourceRivers follow_strokes(recipe::Plan const& plan, StageLog& stage_log, Run const& run) {
     recipe::TokunagaRecipe const& wanted = plan.recipe.network->tokunaga;
     Grid const& grid = *plan.grid;
-    network::StrokesParams params;
+    growth::StrokesParams params;
     params.tree = recipe::tree_of(plan.recipe);
     params.max_depth = std::max(wanted.order - 1, 1); // each refinement raises the order by one
     params.min_spacing_m = wanted.spacing_cells * grid.cell_m;
-    network::GrownStrokes grown =
-        stage_log.stage("grow", [&] { return network::grow_strokes(plan.lines, grid, params, run); });
+    growth::GrownStrokes grown =
+        stage_log.stage("grow", [&] { return growth::grow_strokes(plan.lines, grid, params, run); });
     TokunagaStatistics statistics;
     statistics.placed = grown.placed;
     statistics.dropped = grown.dropped;
@@ -242,17 +242,17 @@ SourceRivers rivers_of_tree(recipe::Plan const& plan, StageLog& stage_log, Run c
 SourceRivers rivers_of_forest(recipe::Recipe const& recipe, recipe::ForestLand const& on, StageLog& stage_log,
                               Run const& run) {
     recipe::ForestRecipe const& wanted = recipe.network->forest;
-    network::ForestParams params = wanted.growth;
+    growth::ForestParams params = wanted.growth;
     params.step_cells = wanted.spacing_cells / 2;
     params.seed = recipe.seed;
-    network::PlantedForest planted =
-        stage_log.stage("grow", [&] { return network::plant_forest(on.land, on.outlets, params, run); });
+    growth::PlantedForest planted =
+        stage_log.stage("grow", [&] { return growth::plant_forest(on.land, on.outlets, params, run); });
     stage_log.say(fmt::format("{} trees of {} particles  seed {}", planted.outlets, planted.particles, recipe.seed));
     stage_log.find(planted.notes);
     NetworkStatistics statistics;
     statistics.particles = planted.particles;
     statistics.walkers = planted.walkers;
-    statistics.full = planted.stop == network::ForestStop::full;
+    statistics.full = planted.stop == growth::ForestStop::full;
     return {.network = std::move(planted.network),
             .grid = on.land.grid(),
             .land = on.has_sea ? on.land : Mask{},

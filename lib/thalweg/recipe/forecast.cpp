@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/network/growth/dla/grow_dla.hpp>
+#include <thalweg/growth/dla/grow_dla.hpp>
 #include <thalweg/recipe/check_recipe.hpp>
 #include <thalweg/recipe/frame.hpp>
 #include <thalweg/recipe/stages.hpp>
@@ -161,7 +161,7 @@ double seconds_of(Recipe const& recipe, Forecast const& found) {
     }
     if (recipe.network && recipe.network->source == Source::dla) {
         seconds += 2.5e-6 * static_cast<double>(recipe.network->dla.particles) +
-                   8e-8 * network::least_arrivals(recipe.network->dla);
+                   8e-8 * growth::least_arrivals(recipe.network->dla);
     }
     return seconds;
 }

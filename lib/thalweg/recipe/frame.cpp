@@ -135,7 +135,7 @@ std::int64_t margin_around(std::int64_t side_cells) {
     return std::max<std::int64_t>(2, (side_cells + 19) / 20);
 }
 
-FramedBranch frame_branch(network::Branch const& branch, GridRecipe const& wanted) {
+FramedBranch frame_branch(growth::Branch const& branch, GridRecipe const& wanted) {
     Cell low = branch.cells.front();
     Cell high = low;
     for (Cell const& c : branch.cells) {

@@ -7,7 +7,7 @@
 #include <thalweg/core/features.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/river_files.hpp>
-#include <thalweg/network/growth/dla/grow_dla.hpp>
+#include <thalweg/growth/dla/grow_dla.hpp>
 #include <thalweg/recipe/recipe.hpp>
 
 namespace thalweg::recipe {
@@ -40,7 +40,7 @@ struct FramedBranch {
 /// \param branch picked from a cluster
 /// \param wanted the grid of the recipe; 0: chosen
 /// \return the branch on its grid
-FramedBranch frame_branch(network::Branch const& branch, GridRecipe const& wanted);
+FramedBranch frame_branch(growth::Branch const& branch, GridRecipe const& wanted);
 
 /// \internal
 /// Chooses the grid of lines.

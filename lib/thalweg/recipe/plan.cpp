@@ -13,14 +13,14 @@
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/kept.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/growth/forest/coast.hpp>
+#include <thalweg/growth/forest/grow_forest.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/mesh/points.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/polygons.hpp>
 #include <thalweg/io/sources/sources.hpp>
-#include <thalweg/network/growth/forest/coast.hpp>
-#include <thalweg/network/growth/forest/grow_forest.hpp>
 #include <thalweg/network/import/prepare_lines.hpp>
 #include <thalweg/network/planform/rotate.hpp>
 #include <thalweg/recipe/check_recipe.hpp>
@@ -93,7 +93,7 @@ Mask land_of(Recipe const& recipe, Run const& run) {
     ForestRecipe const& wanted = recipe.network->forest;
     if (wanted.region.empty()) {
         Grid const grid = frame_tree(1, recipe.grid);
-        return wanted.shape == LandShape::island ? network::shape_island(grid, {wanted.ruggedness, recipe.seed}, run)
+        return wanted.shape == LandShape::island ? growth::shape_island(grid, {wanted.ruggedness, recipe.seed}, run)
                                                  : Mask(grid, 1);
     }
     Polygons const polygons = io::read_polygons(file_in(recipe, wanted.region), recipe.grid.crs, run);
@@ -118,7 +118,7 @@ std::vector<Cell> spread(Recipe const& recipe, Mask const& land, std::vector<Cel
     constexpr std::int64_t spacings = 6;
     std::int64_t const every =
         wanted.outlet_spacing_cells > 0 ? wanted.outlet_spacing_cells : spacings * wanted.spacing_cells;
-    return network::spread_outlets(land, coast, {wanted.seeds, static_cast<double>(every), recipe.seed}, run);
+    return growth::spread_outlets(land, coast, {wanted.seeds, static_cast<double>(every), recipe.seed}, run);
 }
 
 /// The coast cells nearest to the points of a file.
@@ -136,7 +136,7 @@ std::vector<Cell> at_points(Recipe const& recipe, Mask const& land, StageLog& st
     params.path = file_in(recipe, wanted.outlets);
     params.crs = grid.crs;
     params.heights = io::PointHeights::passed_over;
-    std::vector<Cell> const coast = network::coast_cells(land);
+    std::vector<Cell> const coast = growth::coast_cells(land);
     std::vector<Cell> outlets;
     FeaturePoints const points = io::read_points(params, run);
     stage_log.find(points.findings);
@@ -179,7 +179,7 @@ std::vector<Cell> coast_along_file(Recipe const& recipe, Mask& land, Run const& 
         marked = cells_under(network::clip_lines(lines, grid), grid, wanted.outlets);
         reach = wanted.spacing_cells; // coasts are drawn at different levels of detail
     }
-    std::vector<Cell> coast = near_to(marked, network::coast_cells(land), reach);
+    std::vector<Cell> coast = near_to(marked, growth::coast_cells(land), reach);
     refuse_if<BadInput>(coast.empty(),
                         "network.forest.outlets: no coast of the land lies within {} cells of {}; give outlets on the "
                         "coast, or the region whose coast they lie on",
@@ -191,7 +191,7 @@ std::vector<Cell> outlets_of(Recipe const& recipe, Mask& land, StageLog& stage_l
     ForestRecipe const& wanted = recipe.network->forest;
     io::Source const file = file_in(recipe, wanted.outlets);
     if (wanted.outlets.empty()) {
-        std::vector<Cell> const coast = network::coast_cells(land);
+        std::vector<Cell> const coast = growth::coast_cells(land);
         return coast.empty() ? coast : spread(recipe, land, coast, run);
     }
     bool const points = io::is_text_of_points(file.path) || io::is_point_cloud(file.path) ||
@@ -234,9 +234,9 @@ void require_room(std::int64_t links, Grid const& grid, double spacing_cells) {
 
 } // namespace
 
-network::TokunagaParams tree_of(Recipe const& recipe) {
+growth::TokunagaParams tree_of(Recipe const& recipe) {
     TokunagaRecipe const& wanted = recipe.network->tokunaga;
-    network::TokunagaParams params;
+    growth::TokunagaParams params;
     params.seed = recipe.seed;
     params.generator = wanted.generator;
     params.order = wanted.order;
@@ -251,7 +251,7 @@ Plan plan_tree(Recipe recipe, StageLog& stage_log, Run const& run) {
     TokunagaRecipe const& wanted = recipe.network->tokunaga;
     recipe.grid.crs = crs_of_grid(recipe.grid.crs.empty() ? "EPSG:32631" : recipe.grid.crs);
     Plan plan;
-    plan.tree = stage_log.stage("grow", [&] { return network::grow_tokunaga(tree_of(recipe), run); });
+    plan.tree = stage_log.stage("grow", [&] { return growth::grow_tokunaga(tree_of(recipe), run); });
     stage_log.say(
         fmt::format("lambda {}  order {}  {} links", wanted.generator, wanted.order, plan.tree->links.size()));
     if (!wanted.region.empty()) {
@@ -306,7 +306,7 @@ Plan plan_cluster(Recipe recipe) {
         plan.grid = frame_tree(1, recipe.grid);
     }
     check_memory_of_cluster(wanted.dla.particles);
-    network::require_growth(wanted.dla);
+    growth::require_growth(wanted.dla);
     wanted.dla.seed = recipe.seed;
     wanted.rotate_deg = wanted.rotate_deg.value_or(in_equilibrium(recipe) ? network::random_turn(recipe.seed) : 0.0);
     plan.recipe = std::move(recipe);

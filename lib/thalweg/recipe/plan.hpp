@@ -14,7 +14,7 @@
 #include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/run/stage_log.hpp>
-#include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
+#include <thalweg/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/recipe/recipe.hpp>
 
 namespace thalweg::recipe {
@@ -42,10 +42,10 @@ struct Plan {
     Raster<float> line_dem;       ///< of network.lines.dem, in the CRS of the lines; without cells: none
     Raster<float> raster;         ///< of surface.source, on the grid; without cells: none
     bool heights_of_file = false; ///< used because the lines have them, not because they are requested
-    std::optional<Polygons> region;            ///< that a Tokunaga tree fills
-    std::optional<network::TokunagaTree> tree; ///< fills the region or the grid, whose size it may determine
-    std::optional<ForestLand> forest;          ///< if rivers are a forest
-    std::optional<LikeDem> like;               ///< where surface.like is set
+    std::optional<Polygons> region;           ///< that a Tokunaga tree fills
+    std::optional<growth::TokunagaTree> tree; ///< fills the region or the grid, whose size it may determine
+    std::optional<ForestLand> forest;         ///< if rivers are a forest
+    std::optional<LikeDem> like;              ///< where surface.like is set
     Raster<float> against; ///< of output.against, on the grid where that is known, else as its file has it
     /// 0: a gap of that DEM, where terrain is rebuilt from heights of a file; without cells: there is none
     Mask land;

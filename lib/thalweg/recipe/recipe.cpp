@@ -44,7 +44,7 @@ Recipe cluster_recipe() {
     network.dla.particles = 100000;
     network.dla.sticking = 1.0;
     network.dla.visits = 1;
-    network.branch = network::BranchChoice::south;
+    network.branch = growth::BranchChoice::south;
     return recipe;
 }
 

@@ -10,15 +10,15 @@
 #include <vector>
 
 #include <thalweg/core/height_unit.hpp>
+#include <thalweg/core/rosgen.hpp>
 #include <thalweg/flow/condition.hpp>
 #include <thalweg/fractal/midpoint.hpp>
+#include <thalweg/growth/dla/grow_dla.hpp>
+#include <thalweg/growth/forest/grow_forest.hpp>
+#include <thalweg/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/network/schema.hpp>
-#include <thalweg/network/elevation/river_types.hpp>
 #include <thalweg/network/elevation/set_heights.hpp>
-#include <thalweg/network/growth/dla/grow_dla.hpp>
-#include <thalweg/network/growth/forest/grow_forest.hpp>
-#include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/network/import/import_lines.hpp>
 #include <thalweg/skeleton/regress.hpp>
 #include <thalweg/skeleton/scatter.hpp>
@@ -51,7 +51,7 @@ struct ForestRecipe {
     std::int64_t seeds = 0;  ///< [0, ...] outlets; 0: by their spacing
     std::int64_t outlet_spacing_cells = 0; ///< [0, ...] along the coast or border; 0: six times that of rivers
     std::int64_t spacing_cells = 10;       ///< [8, 200] between rivers that do not meet
-    network::ForestParams growth;          ///< its step and seed follow from the recipe
+    growth::ForestParams growth;           ///< its step and seed follow from the recipe
 };
 
 /// What coastlines among the lines of a file are to the land.
@@ -88,7 +88,7 @@ enum class Side : std::uint8_t { north, east, south, west };
 struct TokunagaRecipe {
     int generator = 2; ///< [1, 50] lambda, also of strokes without their own
     int order = 6;     ///< [1, 12] Strahler order at the mouth; strokes: MaxDepth, that of one as long as the grid
-    network::SideRule rule = network::SideRule::tokunaga;
+    growth::SideRule rule = growth::SideRule::tokunaga;
     Side mouth = Side::south;   ///< of the grid, in the middle of which the river leaves
     std::string region;         ///< polygon the network fills; "": the grid
     std::string strokes;        ///< directed lines, each of which grows a network; "" grows one in the region
@@ -119,10 +119,10 @@ struct NetworkRecipe {
     Source source = Source::dla;
     std::optional<double> prune_cells; ///< [cells] default 20 for dla and forest, else 0
     Heights heights = Heights::automatic;
-    double slope = 0.087;                  ///< [m/m] > 0
-    double heights_tolerance_m = 1.0;      ///< [m] >= 0 by which a DEM may miss heights of a file without a warning
-    double concavity = 0.38;               ///< [0, 1] theta of graded heights
-    std::optional<network::Rosgen> rosgen; ///< type of arcs without one; none: by Strahler order
+    double slope = 0.087;             ///< [m/m] > 0
+    double heights_tolerance_m = 1.0; ///< [m] >= 0 by which a DEM may miss heights of a file without a warning
+    double concavity = 0.38;          ///< [0, 1] theta of graded heights
+    std::optional<Rosgen> rosgen;     ///< type of arcs without one; none: by Strahler order
     network::SlopeDraw rosgen_slope = network::SlopeDraw::middle;
     std::optional<double> rotate_deg; ///< [degrees] counterclockwise; none: at random where rivers are grown for a land
                                       ///< in equilibrium, else 0
@@ -131,8 +131,8 @@ struct NetworkRecipe {
     bool fill_space = false;          ///< the land's own side valleys become arcs
     std::int64_t support_cells = 200; ///< [cells] that drain through where a side valley begins
     double coast_m = 0.0;             ///< [m] >= 0: nearer to the outlet along the stream rivers are braided
-    network::DlaParams dla;
-    network::BranchChoice branch = network::BranchChoice::largest;
+    growth::DlaParams dla;
+    growth::BranchChoice branch = growth::BranchChoice::largest;
     LinesRecipe lines;
     TokunagaRecipe tokunaga;
     ForestRecipe forest;

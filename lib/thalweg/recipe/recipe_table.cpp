@@ -26,8 +26,8 @@ bool falls_by_slope(Recipe const& r) {
 
 std::vector<std::string> rosgen_words() {
     std::vector<std::string> words{"by_order"};
-    for (network::Rosgen const type : network::rosgen_types) {
-        words.emplace_back(network::name_of(type));
+    for (Rosgen const type : rosgen_types) {
+        words.emplace_back(name_of(type));
     }
     return words;
 }

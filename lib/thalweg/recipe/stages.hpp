@@ -12,7 +12,7 @@
 #include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/run/stage_log.hpp>
-#include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
+#include <thalweg/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/recipe/plan.hpp>
 #include <thalweg/recipe/recipe.hpp>
 
@@ -60,7 +60,7 @@ inline constexpr char const* more_room =
     "lower network.tokunaga.order or spacing, or take a larger grid (or smaller cells)";
 
 /// The tree that a recipe grows by Tokunaga's law.
-network::TokunagaParams tree_of(Recipe const& recipe);
+growth::TokunagaParams tree_of(Recipe const& recipe);
 
 /// Rejects lines of which one vertex, or at most 1 %, is more than twenty times as far away as all others: a corrupt
 /// coordinate that would enlarge the grid. Fewer than 20 vertices are not judged.

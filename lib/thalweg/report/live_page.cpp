@@ -85,7 +85,7 @@ std::optional<ClusterArms> cluster_arms(recipe::Recipe const& recipe, std::int64
     if (!recipe.network || recipe.network->source != recipe::Source::dla) {
         return std::nullopt;
     }
-    network::Cluster const cluster = make::cluster_of(recipe, run);
+    growth::Cluster const cluster = make::cluster_of(recipe, run);
     Cell low = cluster.cells.front();
     Cell high = low;
     for (Cell const c : cluster.cells) {
@@ -109,11 +109,11 @@ std::optional<ClusterArms> cluster_arms(recipe::Recipe const& recipe, std::int64
     constexpr std::uint8_t no_arm = 5;
     paint(cluster.cells, no_arm);
     std::uint8_t arm = 0;
-    for (network::BranchChoice const choice : {network::BranchChoice::north, network::BranchChoice::east,
-                                               network::BranchChoice::south, network::BranchChoice::west}) {
+    for (growth::BranchChoice const choice : {growth::BranchChoice::north, growth::BranchChoice::east,
+                                              growth::BranchChoice::south, growth::BranchChoice::west}) {
         ++arm;
         try {
-            paint(network::pick_branch(cluster, {.choice = choice}).cells, arm);
+            paint(growth::pick_branch(cluster, {.choice = choice}).cells, arm);
         } catch (BadInput const&) { // it has no such arm
         }
     }

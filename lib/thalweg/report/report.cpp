@@ -15,9 +15,9 @@
 #include <thalweg/core/run/memory.hpp>
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/flow/condition.hpp>
+#include <thalweg/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/make/file_values.hpp>
 #include <thalweg/make/laws.hpp>
-#include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::report {
@@ -139,7 +139,7 @@ ordered_json tokunaga_object(make::Made const& t) {
         !t.recipe.network->tokunaga.strokes.empty()) { // each has a tree and lambda of its own
         out["grown"] = {{"links", t.planform.statistics.tokunaga->placed + t.planform.statistics.tokunaga->dropped}};
     } else if (t.planform.statistics.tokunaga) {
-        network::TokunagaLaws const laws = network::tokunaga_laws(t.recipe.network->tokunaga.generator);
+        growth::TokunagaLaws const laws = growth::tokunaga_laws(t.recipe.network->tokunaga.generator);
         out["grown"] = streams_object(t.planform.statistics.tokunaga->tree);
         out["asked"] = {{"a", laws.a}, {"c", laws.c}, {"bifurcation", laws.bifurcation}};
     }

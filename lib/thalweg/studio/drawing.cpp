@@ -14,11 +14,11 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/rosgen.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/geometry/nearby.hpp>
 #include <thalweg/geometry/polylines.hpp>
-#include <thalweg/network/elevation/river_types.hpp>
 #include <thalweg/studio/internal/segment_squares.hpp>
 
 namespace thalweg::studio {
@@ -671,7 +671,7 @@ void set_end(DrawnLine& line, Vec2 at, double cell_m) {
 
 void require_type(std::string const& type, int lambda) {
     constexpr int most = 50;
-    refuse_if<BadParameter>(!type.empty() && !network::rosgen_of(type),
+    refuse_if<BadParameter>(!type.empty() && !rosgen_of(type),
                             "studio.drawing: {} is no river type: Aa+, A, B, C, D, DA, E, F and G are", type);
     refuse_if<BadParameter>(lambda < 0 || lambda > most, "studio.drawing: lambda = {} is outside [1, {}]", lambda,
                             most);

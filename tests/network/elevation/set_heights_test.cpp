@@ -22,7 +22,6 @@ using namespace thalweg;
 using network::GradedParams;
 using network::HeightMode;
 using network::RiverTypes;
-using network::Rosgen;
 using network::set_heights;
 using network::set_heights_by_type;
 using network::set_heights_graded;
@@ -43,7 +42,7 @@ RiverTypes all_of(StreamNetwork const& net, Rosgen type) {
 RiverTypes mixed(StreamNetwork const& net) {
     RiverTypes types = all_of(net, Rosgen::c);
     for (std::size_t a = 0; a < types.type.size(); ++a) {
-        types.type[a] = network::rosgen_types[a % network::rosgen_types.size()];
+        types.type[a] = rosgen_types[a % rosgen_types.size()];
     }
     return types;
 }

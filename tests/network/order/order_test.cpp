@@ -196,4 +196,23 @@ TEST(Streams, RefusesOrdersOfAnotherNetworkAndWhatIsNoTree) {
     EXPECT_THROW(streams(test::network_of({{0, 0}, {1, 0}}, {{0, 1}, {1, 0}}), orders), BadInput);
 }
 
+TEST(CountStreams, CountsByHand) {
+    using Down = std::vector<std::int64_t>;
+    using Branches = std::vector<std::vector<std::int64_t>>;
+    EXPECT_EQ(network::count_streams(Down{}).order, 0);
+    // A stream of order 2 with one side branch, and beside it a lone link.
+    auto const counts = network::count_streams(Down{-1, 0, 0, 1, 1, -1});
+    EXPECT_EQ(counts.links, 6);
+    EXPECT_EQ(counts.sources, 4);
+    EXPECT_EQ(counts.streams, (std::vector<std::int64_t>{4, 1}));
+    EXPECT_EQ(counts.branches[1], std::vector<std::int64_t>{1});
+    EXPECT_EQ(counts.side, std::vector<double>{1.0});
+    // Three equal streams: two form the order, the third is its branch; of unequal ones all but the highest are.
+    EXPECT_EQ(network::count_streams(Down{-1, 0, 0, 0}).branches, (Branches{{}, {1}}));
+    EXPECT_EQ(network::count_streams(Down{-1, 0, 0, 0, 0}).branches, (Branches{{}, {2}}));
+    EXPECT_EQ(network::count_streams(Down{-1, 0, 0, 0, 1, 1}).branches, (Branches{{}, {2}}));
+    EXPECT_THROW(network::count_streams(Down{0}), BadInput);
+    EXPECT_THROW(network::count_streams(Down{1, -1}), BadInput);
+}
+
 } // namespace order_test

@@ -11,7 +11,7 @@
 
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/network/growth/dla/grow_dla.hpp>
+#include <thalweg/growth/dla/grow_dla.hpp>
 
 namespace rotate_test {
 
@@ -64,9 +64,9 @@ TEST(Rotate, TheSameRiversInTheMiddleOfTheirGrid) {
 }
 
 TEST(Rotate, ABranchCutToTheTurnedBoxFits) {
-    network::Cluster const cluster = network::grow_dla({.particles = 3000});
+    growth::Cluster const cluster = growth::grow_dla({.particles = 3000});
     for (double const turn : {-33.0, -12.0, 20.0}) {
-        auto const branch = network::pick_branch(cluster, {network::BranchChoice::all, 60, 40, turn});
+        auto const branch = growth::pick_branch(cluster, {growth::BranchChoice::all, 60, 40, turn});
         EXPECT_TRUE(branch.cut);
         NetworkDraft net;
         for (Cell const c : branch.cells) {

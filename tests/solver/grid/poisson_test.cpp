@@ -20,9 +20,9 @@
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/route.hpp>
+#include <thalweg/growth/tokunaga/embed_tree.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/network/elevation/set_heights.hpp>
-#include <thalweg/network/growth/tokunaga/embed_tree.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/vectorise/rasterise.hpp>
 #include <thalweg/skeleton/draw_skeleton.hpp>
@@ -186,11 +186,11 @@ Raster<double> swept(GridProblem const& problem, double alpha, int sweeps) {
 /// A Tokunaga network of 1024 x 1024 cells, and the ridges between its streams.
 Raster<float> rivers_and_ridges(skeleton::RidgesParams::Method method) {
     Grid const grid{1024, 1024, 30.0, 0.0, 30720.0, ""};
-    network::EmbedParams embedding;
+    growth::EmbedParams embedding;
     embedding.region = {{600, 600}, {30120, 600}, {30120, 30120}, {600, 30120}};
     embedding.mouth = {15360, 600};
-    auto const tree = network::grow_tokunaga({.generator = 2, .order = 6});
-    StreamNetwork const plan = network::embed_tree(tree, embedding).network;
+    auto const tree = growth::grow_tokunaga({.generator = 2, .order = 6});
+    StreamNetwork const plan = growth::embed_tree(tree, embedding).network;
     ElevatedNetwork const rivers = network::set_heights(plan, {network::HeightMode::along_stream, 0.02}).network;
     skeleton::RidgesParams params;
     params.method = method;

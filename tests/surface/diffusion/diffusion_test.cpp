@@ -15,8 +15,8 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/growth/dla/grow_dla.hpp>
 #include <thalweg/network/elevation/set_heights.hpp>
-#include <thalweg/network/growth/dla/grow_dla.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
 #include <thalweg/network/vectorise/rasterise.hpp>
 #include <thalweg/network/vectorise/vectorise.hpp>
@@ -57,7 +57,7 @@ Skeleton skeleton_of(Valley const& valley) {
 
 /// A valley of the first paper: the longest branch of a cluster grown at random, raised upstream.
 Valley grown() {
-    network::Branch const branch = network::pick_branch(network::grow_dla({.particles = 8000}));
+    growth::Branch const branch = growth::pick_branch(growth::grow_dla({.particles = 8000}));
     recipe::FramedBranch const framed = recipe::frame_branch(branch, {});
     StreamNetwork const traced = network::trace(network::thin(framed.mask), {framed.mouth});
     double const cell_m = framed.mask.grid().cell_m;

@@ -14,9 +14,10 @@ namespace {
 constexpr std::string_view separator = ": ";
 
 bool is_module(std::string_view word) {
-    constexpr std::array<std::string_view, 20> modules{
-        "core", "geometry", "solver", "flow",   "network", "skeleton", "surface", "fractal",  "blend",    "measure",
-        "draw", "io",       "serve",  "recipe", "make",    "report",   "export",  "ensemble", "commands", "studio"};
+    constexpr std::array<std::string_view, 21> modules{"core",     "geometry", "solver",  "flow",  "growth",  "network",
+                                                       "skeleton", "surface",  "fractal", "blend", "measure", "draw",
+                                                       "io",       "serve",    "recipe",  "make",  "report",  "export",
+                                                       "ensemble", "commands", "studio"};
     return std::find(modules.begin(), modules.end(), word) != modules.end();
 }
 

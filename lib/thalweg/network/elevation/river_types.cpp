@@ -20,43 +20,21 @@ namespace {
 constexpr double least = 0.001;   // for classes open below: water must flow
 constexpr double greatest = 0.20; // of Aa+, open above
 
-struct Class {
-    char const* name;
-    SlopeRange slope;
-};
-
 // In the order of the enumeration.
-constexpr ByEnum<Rosgen, Class, rosgen_types.size()> classes{{{{"Aa+", {0.10, greatest, 0.12}},
-                                                               {"A", {0.04, 0.10, 0.07}},
-                                                               {"B", {0.02, 0.04, 0.03}},
-                                                               {"C", {least, 0.02, 0.01}},
-                                                               {"D", {least, 0.04, 0.02}},
-                                                               {"DA", {least, 0.005, 0.003}},
-                                                               {"E", {least, 0.02, 0.01}},
-                                                               {"F", {least, 0.02, 0.01}},
-                                                               {"G", {0.02, 0.04, 0.03}}}}};
-
-Class const& class_of(Rosgen type) {
-    return classes[type];
-}
+constexpr ByEnum<Rosgen, SlopeRange, rosgen_types.size()> slopes_of_types{{{{0.10, greatest, 0.12},
+                                                                            {0.04, 0.10, 0.07},
+                                                                            {0.02, 0.04, 0.03},
+                                                                            {least, 0.02, 0.01},
+                                                                            {least, 0.04, 0.02},
+                                                                            {least, 0.005, 0.003},
+                                                                            {least, 0.02, 0.01},
+                                                                            {least, 0.02, 0.01},
+                                                                            {0.02, 0.04, 0.03}}}};
 
 } // namespace
 
 SlopeRange slope_range(Rosgen type) {
-    return class_of(type).slope;
-}
-
-char const* name_of(Rosgen type) {
-    return class_of(type).name;
-}
-
-std::optional<Rosgen> rosgen_of(std::string_view name) {
-    for (Rosgen const type : rosgen_types) {
-        if (name == name_of(type)) {
-            return type;
-        }
-    }
-    return name == "A+" ? std::optional(Rosgen::aa_plus) : std::nullopt;
+    return slopes_of_types[type];
 }
 
 bool is_braided(Rosgen type) {

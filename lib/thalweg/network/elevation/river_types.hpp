@@ -2,22 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <optional>
-#include <string_view>
 #include <vector>
 
+#include <thalweg/core/rosgen.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 
 namespace thalweg::network {
-
-/// Rosgen's river types, from steep headwaters to lowlands.
-enum class Rosgen : std::uint8_t { aa_plus, a, b, c, d, da, e, f, g };
-
-inline constexpr std::array<Rosgen, 9> rosgen_types{Rosgen::aa_plus, Rosgen::a, Rosgen::b, Rosgen::c, Rosgen::d,
-                                                    Rosgen::da,      Rosgen::e, Rosgen::f, Rosgen::g};
 
 /// The range of channel slopes of a river type. Law: 0 < low < high, low <= usual <= high. Classes that the table
 /// leaves open end at 0.001 below and 0.2 above. Source: Rosgen 1994; \cite nenu2015, table 2.
@@ -27,16 +19,6 @@ struct SlopeRange {
     double usual = 0.0; ///< [m/m] the class's typical slope
 };
 SlopeRange slope_range(Rosgen type);
-
-/// The name of a river type.
-/// \param type any type
-/// \return "Aa+", "A", "B", "C", "D", "DA", "E", "F" or "G"
-char const* name_of(Rosgen type);
-
-/// Finds a river type by name.
-/// \param name case-sensitive; "A+", as \cite nenu2015 writes, means Aa+
-/// \return nothing for an unknown name
-std::optional<Rosgen> rosgen_of(std::string_view name);
 
 /// Tells whether rivers of a type are braided.
 /// \param type any type
