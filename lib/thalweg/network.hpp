@@ -13,6 +13,7 @@
 #include <thalweg/network/import/from_file.hpp>
 #include <thalweg/network/import/import_lines.hpp>
 #include <thalweg/network/import/land_and_sea.hpp>
+#include <thalweg/network/import/open_ends.hpp>
 #include <thalweg/network/import/prepare_lines.hpp>
 #include <thalweg/network/import/river_heights.hpp>
 #include <thalweg/network/order/main_stems.hpp>

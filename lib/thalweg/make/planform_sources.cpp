@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 #include <span>
 
@@ -14,8 +13,6 @@
 #include <thalweg/core/run/kept.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/core/vec.hpp>
-#include <thalweg/geometry/nearby.hpp>
-#include <thalweg/geometry/polylines.hpp>
 #include <thalweg/growth/dla/grow_dla.hpp>
 #include <thalweg/growth/forest/grow_forest.hpp>
 #include <thalweg/growth/tokunaga/embed_tree.hpp>
@@ -24,6 +21,7 @@
 #include <thalweg/make/internal/planform.hpp>
 #include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/import/land_and_sea.hpp>
+#include <thalweg/network/import/open_ends.hpp>
 #include <thalweg/network/planform/rotate.hpp>
 #include <thalweg/network/vectorise/vectorise.hpp>
 #include <thalweg/recipe/frame.hpp>
@@ -272,149 +270,16 @@ std::vector<Finding> left_out(RiverLines const& lines) {
     return findings;
 }
 
-/// [m] 0 outside the grid
-double distance_to_border(Vec2 p, Grid const& grid) {
-    double const east = grid.west + static_cast<double>(grid.width) * grid.cell_m;
-    double const south = grid.north - static_cast<double>(grid.height) * grid.cell_m;
-    return std::max(0.0, std::min({p.x - grid.west, east - p.x, p.y - south, grid.north - p.y}));
-}
-
-/// An outlet inside the grid that lies nearer to a river of another basin than to the border.
-struct GapBelow {
-    NodeId outlet = 0;
-    double gap_m = 0.0;
-};
-
-/// The gaps below outlets: of at most 2 cells to another river, of at most 20 to one that begins there; away from the
-/// mouths of those rivers, because at a sea or a lake they end side by side.
-std::vector<GapBelow> gaps_below(StreamNetwork const& network, Grid const& grid, bool has_sea, Run const& run) {
-    double const small_m = 2.0 * grid.cell_m;
-    double const most_m = has_sea ? small_m : 20.0 * grid.cell_m;
-    double const mouths_m = 5.0 * grid.cell_m;
-    std::vector<std::vector<Vec2>> lines;
-    for (Arc const& arc : network.arcs()) {
-        lines.push_back(arc.line);
-    }
-    std::vector<NodeId> const outlets = network.outlets();
-    std::vector<Vec2> at;
-    for (NodeId const outlet : outlets) {
-        at.push_back(network.node(outlet).at);
-    }
-    auto const near = geometry::segments_near(at, lines, most_m, run);
-    std::vector<GapBelow> gaps;
-    for (std::size_t k = 0; k < outlets.size(); ++k) {
-        double const border_m = distance_to_border(at[k], grid);
-        std::optional<GapBelow> gap;
-        for (geometry::NearSegment const& s : near[k]) {
-            std::int64_t const basin = network.basin(network.to(s.line));
-            Vec2 const mouth = network.node(outlets[static_cast<std::size_t>(basin - 1)]).at;
-            auto const& line = lines[s.line];
-            double const gap_m = distance(at[k], geometry::foot_on(line[s.segment], line[s.segment + 1], at[k]).at);
-            bool const begins = network.in(network.from(s.line)).empty() && distance(line.front(), at[k]) == gap_m;
-            if (basin != network.basin(outlets[k]) && gap_m < border_m && (gap_m <= small_m || begins) &&
-                distance(mouth, at[k]) > mouths_m + gap_m && (!gap || gap_m < gap->gap_m)) {
-                gap = GapBelow{outlets[k], gap_m};
-            }
-        }
-        if (gap) {
-            gaps.push_back(*gap);
-        }
-    }
-    return gaps;
-}
-
-/// A place that rivers end around, and where another one begins.
-struct Hollow {
-    NodeId source = 0;        ///< of the river that begins there
-    std::vector<NodeId> ends; ///< the nearest first
-    double farthest_m = 0.0;
-};
-
-/// Whether a line is met by the straight way between two places, other than at these.
-bool is_met(std::vector<Vec2> const& line, Vec2 from, Vec2 to) {
-    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-        Vec2 const a = line[i];
-        Vec2 const b = line[i + 1];
-        if (a != from && b != from && a != to && b != to && (cross(from, to, a) > 0.0) != (cross(from, to, b) > 0.0) &&
-            (cross(a, b, from) > 0.0) != (cross(a, b, to) > 0.0)) {
-            return true;
-        }
-    }
-    return false;
-}
-
-/// The places that rivers of other basins run towards and end at, and one begins at that leads away: one within 50
-/// cells, or several nearer than to the border, with nothing drawn between.
-std::vector<Hollow> hollows(StreamNetwork const& network, Grid const& grid, Run const& run) {
-    double const least_m = 2.0 * grid.cell_m; // nearer ones are gaps
-    double const most_m = 50.0 * grid.cell_m;
-    std::vector<NodeId> sources;
-    for (NodeId n = 0; n < network.node_count(); ++n) {
-        if (network.in(n).empty() && network.out(n) != no_arc) {
-            sources.push_back(n);
-        }
-    }
-    std::map<NodeId, Hollow> found;
-    for (NodeId const outlet : network.outlets()) {
-        run.check();
-        Vec2 const at = network.node(outlet).at;
-        double const border_m = distance_to_border(at, grid);
-        auto const& last = network.arc(network.in(outlet).front()).line;
-        Vec2 const ahead = at - last[last.size() - 2];
-        std::optional<NodeId> nearest;
-        double nearest_m = border_m;
-        for (NodeId const source : sources) {
-            Vec2 const way = network.node(source).at - at;
-            double const m = norm(way);
-            auto const& first = network.arc(network.out(source)).line;
-            bool const leads_on = dot(way, ahead) > 0.0 && dot(way, first[1] - first[0]) > 0.0;
-            if (m > least_m && m < nearest_m && leads_on && network.basin(source) != network.basin(outlet)) {
-                nearest = source;
-                nearest_m = m;
-            }
-        }
-        bool const is_seen = nearest && std::ranges::none_of(network.arcs(), [&](Arc const& arc) {
-                                 return is_met(arc.line, at, network.node(*nearest).at);
-                             });
-        if (is_seen) {
-            Hollow& hollow = found[*nearest];
-            hollow.source = *nearest;
-            hollow.ends.push_back(outlet);
-            hollow.farthest_m = std::max(hollow.farthest_m, nearest_m);
-        }
-    }
-    std::vector<Hollow> result;
-    for (auto const& [source, hollow] : found) {
-        if (hollow.ends.size() > 1 || hollow.farthest_m <= most_m) {
-            result.push_back(hollow);
-        }
-    }
-    return result;
-}
-
-/// [m] From a place to the nearest lake; 0: within it.
-double distance_to_lakes(Vec2 p, std::vector<Polygon> const& lakes) {
-    double least_m = std::numeric_limits<double>::infinity();
-    for (Polygon const& lake : lakes) {
-        std::vector<Vec2> const& shore = lake.rings.front();
-        for (std::size_t i = 0; i < shore.size(); ++i) {
-            least_m = std::min(least_m, distance(p, geometry::foot_on(shore[i], shore[(i + 1) % shore.size()], p).at));
-        }
-        least_m = geometry::contains(shore, p) ? 0.0 : least_m;
-    }
-    return least_m;
-}
-
 /// Warns where rivers end or begin near a lake without reaching its shore.
-void warn_of_shores(StreamNetwork const& network, std::span<Hollow const> beside, std::vector<Polygon> const& lakes,
-                    double cell_m, StageLog& stage_log) {
+void warn_of_shores(StreamNetwork const& network, std::span<network::Hollow const> beside,
+                    std::vector<Polygon> const& lakes, double cell_m, StageLog& stage_log) {
     constexpr double reached_cells = 2.0;
     std::size_t rivers = 0;
     double most_m = 0.0;
     Vec2 at = nowhere;
-    for (Hollow const& hollow : beside) {
+    for (network::Hollow const& hollow : beside) {
         std::vector<NodeId> ends = hollow.ends;
-        auto const to_shore = [&](NodeId end) { return distance_to_lakes(network.node(end).at, lakes); };
+        auto const to_shore = [&](NodeId end) { return network::distance_to_lakes(network.node(end).at, lakes); };
         if (std::ranges::any_of(ends, [&](NodeId end) { return to_shore(end) <= reached_cells * cell_m; })) {
             continue; // lakes say themselves what they lack
         }
@@ -443,12 +308,12 @@ void warn_of_shores(StreamNetwork const& network, std::span<Hollow const> beside
 
 /// Warns where rivers end around a place at which another one begins, as at a lake without an outline.
 /// \param lakes those whose outlines are given
-void warn_of_hollows(StreamNetwork const& network, std::vector<Hollow> found, std::vector<Polygon> const& lakes,
-                     double cell_m, StageLog& stage_log) {
+void warn_of_hollows(StreamNetwork const& network, std::vector<network::Hollow> found,
+                     std::vector<Polygon> const& lakes, double cell_m, StageLog& stage_log) {
     constexpr double most_cells = 20.0;
-    auto const beside = std::ranges::stable_partition(found, [&](Hollow const& hollow) {
+    auto const beside = std::ranges::stable_partition(found, [&](network::Hollow const& hollow) {
         return std::ranges::none_of(hollow.ends, [&](NodeId end) {
-            return distance_to_lakes(network.node(end).at, lakes) <= most_cells * cell_m;
+            return network::distance_to_lakes(network.node(end).at, lakes) <= most_cells * cell_m;
         });
     });
     warn_of_shores(network, beside, lakes, cell_m, stage_log);
@@ -457,10 +322,11 @@ void warn_of_hollows(StreamNetwork const& network, std::vector<Hollow> found, st
         return;
     }
     std::size_t ends = 0;
-    for (Hollow const& hollow : found) {
+    for (network::Hollow const& hollow : found) {
         ends += hollow.ends.size();
     }
-    Hollow const& most = *std::ranges::max_element(found, {}, [](Hollow const& h) { return h.ends.size(); });
+    network::Hollow const& most =
+        *std::ranges::max_element(found, {}, [](network::Hollow const& h) { return h.ends.size(); });
     Vec2 const at = network.node(most.source).at;
     stage_log.find(
         {.kind = "lake_without_outline",
@@ -483,24 +349,25 @@ void warn_of_hollows(StreamNetwork const& network, std::vector<Hollow> found, st
 /// \param snapped_m [m] the distance within which ends have been joined
 /// \param around of these ends wide gaps are told already
 void warn_of_gaps(StreamNetwork const& network, Grid const& grid, double snapped_m, bool has_sea,
-                  std::vector<Hollow> const& around, StageLog& stage_log, Run const& run) {
+                  std::vector<network::Hollow> const& around, StageLog& stage_log, Run const& run) {
     constexpr double small_cells = 3.0; // a larger snapping distance would move too much
     double const enough_m = small_cells * grid.cell_m;
-    std::vector<GapBelow> gaps = gaps_below(network, grid, has_sea, run);
-    std::erase_if(gaps, [&](GapBelow const& gap) {
-        return gap.gap_m > enough_m && std::ranges::any_of(around, [&](Hollow const& hollow) {
+    auto gaps = network::gaps_below(network, grid, has_sea ? 2.0 : 20.0, run);
+    std::erase_if(gaps, [&](network::GapBelow const& gap) {
+        return gap.gap_m > enough_m && std::ranges::any_of(around, [&](network::Hollow const& hollow) {
                    return std::ranges::find(hollow.ends, gap.outlet) != hollow.ends.end();
                });
     });
     if (gaps.empty()) {
         return;
     }
-    bool const is_small =
-        snapped_m < enough_m && std::ranges::any_of(gaps, [&](GapBelow const& gap) { return gap.gap_m <= enough_m; });
+    bool const is_small = snapped_m < enough_m && std::ranges::any_of(gaps, [&](network::GapBelow const& gap) {
+                              return gap.gap_m <= enough_m;
+                          });
     if (is_small) {
-        std::erase_if(gaps, [&](GapBelow const& gap) { return gap.gap_m > enough_m; });
+        std::erase_if(gaps, [&](network::GapBelow const& gap) { return gap.gap_m > enough_m; });
     }
-    auto const [least, most] = std::ranges::minmax_element(gaps, {}, &GapBelow::gap_m);
+    auto const [least, most] = std::ranges::minmax_element(gaps, {}, &network::GapBelow::gap_m);
     Vec2 const at = network.node(least->outlet).at;
     std::string const so_far = gaps.size() == 1 ? fmt::format("{:.3g} m", least->gap_m)
                                                 : fmt::format("{:.3g} to {:.3g} m", least->gap_m, most->gap_m);
@@ -652,7 +519,8 @@ SourceRivers rivers_of_lines(recipe::Plan const& plan, StageLog& stage_log, Run 
     stage_log.find(direction_findings(imported.directions, params.dem != nullptr ? "" : "--set network.lines.dem=FILE",
                                       "--set network.lines.orientation=as_drawn (or height, rank, topology)"));
     stage_log.find(imported.directions.doubts);
-    std::vector<Hollow> const around = may_end ? std::vector<Hollow>() : hollows(imported.network, rivers.grid, run);
+    std::vector<network::Hollow> const around =
+        may_end ? std::vector<network::Hollow>() : network::hollows(imported.network, rivers.grid, run);
     warn_of_gaps(imported.network, rivers.grid, wanted.snap_m, has_sea, around, stage_log, run);
     warn_of_hollows(imported.network, around, plan.lines.lakes, rivers.grid.cell_m, stage_log);
     rivers.land = has_sea ? land_of_coastlines(plan.lines, rivers.grid, stage_log, run) : Mask{};
