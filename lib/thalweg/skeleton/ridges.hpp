@@ -7,6 +7,7 @@
 
 #include <thalweg/core/features.hpp>
 #include <thalweg/core/raster.hpp>
+#include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 
@@ -38,5 +39,45 @@ struct RidgesParams {
 /// Source: \cite nenu2015, section 3.1 and equation 10; specification 3.4.
 RidgeLines ridges(ElevatedNetwork const& network, std::vector<std::int64_t> const& stream_of_arc, Grid const& grid,
                   RidgesParams const& params = {}, Run const& run = {});
+
+// Ridges of a file.
+
+/// A cell that a line runs through; the next one has a side in common.
+struct CellOfLine {
+    CellIndex cell = 0;
+    double z_m = 0.0; ///< [m] NaN: none
+};
+
+/// \internal
+/// Lists the cells of a line with its heights there.
+/// \param line [m] inside the grid; heights may be NaN
+/// \param grid gives the cells (cells_along)
+/// \return from its first vertex to the last, no cell twice in a row
+/// \throws BadInput when a vertex lies outside the grid
+std::vector<CellOfLine> cells_of_line(std::vector<Vec3> const& line, Grid const& grid);
+
+/// \internal
+/// Gives ridges heights everywhere: those without rise from the nearest river cell.
+/// \param lines of two vertices or more inside the grid, each with a height at all of them or none
+/// \param valley [m] heights of river cells, at least one if a ridge has no heights
+/// \param params gain and farthest_m count
+/// \return in their order; one that had no heights has a vertex in each cell, at its centre
+/// \throws BadInput when a vertex lies outside the grid, or there is no river
+RidgeLines ridges_with_heights(RiverLines const& lines, Valley const& valley, RidgesParams const& params,
+                               Run const& run = {});
+
+/// \internal
+/// Gives ridges the heights of a terrain.
+/// \param lines inside the DEM
+/// \param dem [m] NaN: no data, also in the result
+RidgeLines ridges_on(RiverLines const& lines, Raster<float> const& dem);
+
+/// \internal
+/// Ridges as the points of a skeleton.
+/// \param ridges with heights, inside the grid
+/// \param grid gives the cells
+/// \return [m] the highest of each cell at its centre, by cell
+/// \throws BadInput when a vertex lies outside the grid
+FeaturePoints as_points(RidgeLines const& ridges, Grid const& grid);
 
 } // namespace thalweg::skeleton

@@ -419,11 +419,7 @@ Mask rivers_of(Valley const& valley) {
 }
 
 double distance_cells(Grid const& grid, std::int64_t a, std::int64_t b) {
-    Cell const from = grid.at(a);
-    Cell const to = grid.at(b);
-    auto const dx = static_cast<double>(from.col - to.col);
-    auto const dy = static_cast<double>(from.row - to.row);
-    return std::sqrt(dx * dx + dy * dy);
+    return std::sqrt(static_cast<double>(squared_cells(grid.at(a), grid.at(b))));
 }
 
 /// Evenly spaced cell centres along the grid's border, corners included: as many as evenly spread points would put

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include <thalweg/make/internal/between_rivers.hpp>
-#include <thalweg/make/internal/features.hpp>
 #include <thalweg/make/internal/lakes.hpp>
 #include <thalweg/make/internal/planform.hpp>
 #include <thalweg/measure/relief/slopes.hpp>
@@ -22,6 +22,7 @@
 #include <thalweg/network/vectorise/rasterise.hpp>
 #include <thalweg/recipe/read_inputs.hpp>
 #include <thalweg/recipe/recipe_files.hpp>
+#include <thalweg/skeleton/ridges.hpp>
 #include <thalweg/surface/equilibrium/match_texture.hpp>
 #include <thalweg/surface/uplift/uplift_pattern.hpp>
 
@@ -63,6 +64,35 @@ Raster<float> with_pattern(Raster<float> of_file, recipe::Recipe const& recipe, 
         uplift[i] *= of_file[i];
     }
     return uplift;
+}
+
+double higher(double a, double b) {
+    return std::isnan(a) || b > a ? b : a;
+}
+
+/// The cells that points and ridges lie in: the highest point of a cell, else its highest ridge.
+std::vector<surface::FeatureCell> feature_cells(FeaturePoints const& points, RiverLines const& ridges,
+                                                Grid const& grid) {
+    std::map<std::int64_t, surface::FeatureCell> cells;
+    for (RiverLine const& ridge : ridges.lines) {
+        for (skeleton::CellOfLine const& c : skeleton::cells_of_line(ridge.vertices, grid)) {
+            surface::FeatureCell& cell = cells[c.cell];
+            cell = {c.cell, static_cast<float>(higher(static_cast<double>(cell.z), c.z_m)), true};
+        }
+    }
+    std::map<std::int64_t, double> heights;
+    for (Vec3 const& p : points.points) {
+        auto const [place, is_new] = heights.try_emplace(grid.index(grid.cell_of(in_plan(p))), p.z);
+        place->second = std::max(place->second, p.z);
+    }
+    for (auto const& [cell, z_m] : heights) {
+        cells[cell] = {cell, static_cast<float>(z_m), cells[cell].crest};
+    }
+    std::vector<surface::FeatureCell> out;
+    for (auto const& [number, cell] : cells) {
+        out.push_back(cell);
+    }
+    return out;
 }
 
 /// Land, uplift and erodibility of terrain in equilibrium: from the recipe's files and its pattern of uplift.
@@ -414,7 +444,7 @@ Surface balanced(GroundInput const& in, Balance const& balance, Run const& run) 
     made.bed.channels = std::move(rivers.channels);
     Ground& ground = made.ground;
     ground.how = how_of(std::move(solved), balance, channel_cells);
-    ground.ridges = joined(ridges_between(in, made.rivers, stage_log, run), ridges_on(in.ridges, dem));
+    ground.ridges = joined(ridges_between(in, made.rivers, stage_log, run), skeleton::ridges_on(in.ridges, dem));
     ground.tin = triangulated(in.recipe, made.rivers.network, ground.ridges, in.points, stage_log, run);
     ground.dem = std::move(dem);
     made.notes.findings = stage_log.take_findings();

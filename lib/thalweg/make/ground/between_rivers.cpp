@@ -11,7 +11,6 @@
 #include <thalweg/core/append.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/triangulate.hpp>
-#include <thalweg/make/internal/features.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/recipe/read_inputs.hpp>
 #include <thalweg/recipe/recipe_files.hpp>
@@ -162,14 +161,17 @@ Between between_rivers(GroundInput const& in, StageLog& stage_log, Run const& ru
         between.points = std::move(found.points);
     }
     between.ridges = ridges_between(in, between.rivers, stage_log, run);
-    between.given =
-        in.ridges.lines.empty() ? RidgeLines{} : ridges_with_heights(in.ridges, *recipe.skeleton, between.valley, run);
+    if (!in.ridges.lines.empty()) {
+        between.given = skeleton::ridges_with_heights(
+            in.ridges, between.valley,
+            {.gain = recipe.skeleton->ridge_gain, .farthest_m = recipe.skeleton->ridge_farthest_m}, run);
+    }
     append(between.points.points, in.points.points);
     between.tin = triangulated(recipe, between.rivers.network, joined(between.ridges, between.given), between.points,
                                stage_log, run);
     between.through = in.points;
-    append(between.through.points, as_points(between.given, in.grid).points);
-    append(between.points.points, as_points(between.given, in.grid).points);
+    append(between.through.points, skeleton::as_points(between.given, in.grid).points);
+    append(between.points.points, skeleton::as_points(between.given, in.grid).points);
     return between;
 }
 
