@@ -202,12 +202,7 @@ public:
         }
         files_ = io::network_files(output, write_);
         require_other(files_, folder_, params.path);
-        for (std::string const& file : files_) {
-            if (params.existing == io::Existing::refuse && fs::exists(folder_ / file, ignored)) {
-                throw BadInput(fmt::format("commands.run_convert: {} already exists: name another or use --overwrite",
-                                           (folder_ / file).string()));
-            }
-        }
+        io::files_there(folder_.string(), files_, params.existing);
     }
 
     bool is_mask() const { return !database_ && write_.format == io::NetworkFormat::mask; }

@@ -160,18 +160,11 @@ private:
                                           io::Existing existing) {
         std::vector<std::string> names;
         for (Measure const& measure : measures()) {
-            for (std::string const& name : measure.files) {
-                if (wanted.contains(measure.name) && fs::exists(fs::symlink_status(fs::path(folder) / name))) {
-                    names.push_back(name);
-                }
+            if (wanted.contains(measure.name)) {
+                append(names, measure.files);
             }
         }
-        if (!names.empty() && existing == io::Existing::refuse) {
-            throw BadInput(fmt::format("commands.run_measure: {} already exists: name another folder or use "
-                                       "--overwrite",
-                                       (fs::path(folder) / names.front()).string()));
-        }
-        return names;
+        return io::files_there(folder, names, existing);
     }
 
     std::string folder_;
