@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/make/internal/refine.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,6 +15,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/stage_log.hpp>
 #include <thalweg/fractal/midpoint.hpp>
+#include <thalweg/make/internal/ground.hpp>
 #include <thalweg/make/internal/numbers.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/recipe/check_recipe.hpp>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include <thalweg/core/features.hpp>
 #include <thalweg/core/raster.hpp>
@@ -69,5 +70,17 @@ Surface points(GroundInput const& in, Run const& run);
 /// The ground that a recipe asks for.
 using MakeGround = Surface (*)(GroundInput const& in, Run const& run);
 MakeGround ground_of(recipe::Recipe const& recipe);
+
+// Detail.
+
+/// Throws, before any work, when the statistics of a recipe cannot be reached on a grid.
+/// \return warnings of lengths that only a fit can determine
+std::vector<Finding> require_targets(recipe::Recipe const& recipe, Grid const& grid);
+
+/// A surface with fractal detail, where the recipe asks for it: around rivers none in the valleys, all of it some
+/// cells away; without rivers between the cells of the coarse surface. Without rivers it is then matched to the
+/// statistics that are asked for, or loses heights where surface.source and surface.mask have none.
+/// \param in of which the surface was made
+Surface refined(Surface surface, GroundInput const& in, Run const& run);
 
 } // namespace thalweg::make
