@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/flow/given_directions.hpp>
+
 #include "records.hpp"
 
 namespace thalweg::python {
@@ -243,41 +245,10 @@ void require_sound(RiverLine const& line) {
 
 void require_sound(flow::FlowField const& drainage) {
     Raster<flow::Direction> const& direction = drainage.direction;
-    Grid const& grid = direction.grid();
-    if (direction.cells() == 0 || !(drainage.area_cells.grid() == grid)) {
+    if (direction.cells() == 0 || !(drainage.area_cells.grid() == direction.grid())) {
         throw BadInput("FlowField: direction and area_cells are rasters on one grid");
     }
-    // By cell: 0 unknown, 1 on the way that is followed, 2 leads to an end.
-    Raster<std::uint8_t> state(grid);
-    std::vector<std::int64_t> way;
-    for (std::int64_t first = 0; first < grid.cells(); ++first) {
-        std::int64_t at = first;
-        while (at >= 0 && state[at] == 0) {
-            state[at] = 1;
-            way.push_back(at);
-            Cell const here = grid.at(at);
-            if (flow::goes_on(direction[at])) {
-                Cell const step = d8_steps[flow::index_of(direction[at])];
-                Cell const next{here.col + step.col, here.row + step.row};
-                if (!grid.contains(next)) {
-                    throw BadInput(
-                        fmt::format("FlowField: the direction in row {}, column {} (from 0) leads off the grid",
-                                    here.row, here.col));
-                }
-                at = grid.index(next);
-                if (state[at] == 1) {
-                    throw BadInput(fmt::format("FlowField: directions form a cycle at row {}, column {} (from 0)",
-                                               next.row, next.col));
-                }
-            } else {
-                at = -1;
-            }
-        }
-        for (std::int64_t const cell : way) {
-            state[cell] = 2;
-        }
-        way.clear();
-    }
+    flow::follow(direction);
 }
 
 void require_sound(growth::TokunagaTree const& tree) {

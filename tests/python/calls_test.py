@@ -167,7 +167,7 @@ class Arguments(unittest.TestCase):
             (lambda: thalweg.flow.flow_lengths({"direction": np.full((4, 4), 0, np.uint8), "area_cells": np.ones((4, 4), np.int64)}),
              thalweg.BadInput, "leads off the grid"),
             (lambda: thalweg.flow.flow_lengths({"direction": np.array([[0, 4]], np.uint8), "area_cells": np.ones((1, 2), np.int64)}),
-             thalweg.BadInput, "form a cycle"),
+             thalweg.BadInput, "runs in a circle"),
             (lambda: thalweg.flow.first_met([{"cell": 10**7}], thalweg.flow.route(np.zeros((4, 4), np.float32))), thalweg.BadInput,
              "is none of the flow field's 16"),
             (lambda: thalweg.flow.FlowField(), thalweg.BadInput, "rasters on one grid"),
