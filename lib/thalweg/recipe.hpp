@@ -5,7 +5,6 @@
 /// A recipe and the files that it names → a Plan: everything known before rivers are drawn.
 #include <thalweg/recipe/check_recipe.hpp>
 #include <thalweg/recipe/frame.hpp>
-#include <thalweg/recipe/made_from.hpp>
 #include <thalweg/recipe/make_input.hpp>
 #include <thalweg/recipe/plan.hpp>
 #include <thalweg/recipe/read_inputs.hpp>
@@ -13,4 +12,5 @@
 #include <thalweg/recipe/recipe_files.hpp>
 #include <thalweg/recipe/recipe_keys.hpp>
 #include <thalweg/recipe/recipe_of_dem.hpp>
+#include <thalweg/recipe/stage_recipes.hpp>
 #include <thalweg/recipe/stages.hpp>

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every key of the table in a small recipe of every method: where the table says that it has an effect, another value
-// changes the terrain or a file; where it says that it has none, the recipe is refused.
+// changes the terrain or a file, also where stages of other recipes were kept; where it says that it has none, the
+// recipe is refused.
 #include <thalweg/make/make.hpp>
 
 #include <algorithm>
@@ -18,6 +19,7 @@
 #include <support.hpp>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/kept.hpp>
 #include <thalweg/recipe/recipe_keys.hpp>
 #include <thalweg/report/report.hpp>
 
@@ -358,8 +360,11 @@ struct Outcome {
 };
 
 Outcome outcome(Recipe const& recipe, bool in_files) {
+    static Kept kept(256'000'000);
+    Run run;
+    run.kept = &kept; // a stage that is not made again for a key that it reads changes nothing
     try {
-        Made const t = make::make(recipe);
+        Made const t = make::make(recipe, run);
         return {in_files ? digest_of_files(t) : digest(t), ""};
     } catch (Error const& fault) {
         return {"", fault.what()};

@@ -15,6 +15,7 @@
 #include <random>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -165,6 +166,17 @@ testing::AssertionResult are_same(make::Made const& a, make::Made const& b) {
     if (!checks || recipe::write_recipe(a.recipe) != recipe::write_recipe(b.recipe)) {
         return testing::AssertionFailure() << "other checks or recipe";
     }
+    auto const texts = [](make::Made const& made) {
+        std::vector<std::string> all;
+        for (Finding const& finding : make::findings_of(made)) {
+            all.push_back(std::string(finding.kind.name()) + ": " + finding.text);
+        }
+        return all;
+    };
+    if (std::vector<std::string> const one_says = texts(a), other_says = texts(b); one_says != other_says) {
+        return testing::AssertionFailure()
+               << "other findings: " << testing::PrintToString(one_says) << " / " << testing::PrintToString(other_says);
+    }
     return testing::AssertionSuccess();
 }
 
@@ -193,11 +205,68 @@ double correlation(Raster<float> const& coarse, Raster<float> const& fine) {
     return (n * sxy - sx * sy) / std::sqrt((n * sxx - sx * sx) * (n * syy - sy * sy));
 }
 
+/// Files that recipes name: rivers with heights, of which one ends before another begins, points, and a DEM with a gap.
+class Files {
+public:
+    Files() {
+        std::filesystem::create_directory(folder_.path() / "inputs");
+        test::write(folder_.path() / "inputs/rivers.geojson",
+                    R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": )"
+                    R"("urn:ogc:def:crs:EPSG::32631"}}, "features": [)"
+                    R"({"type": "Feature", "properties": {"name": "a"}, "geometry": {"type": "LineString", )"
+                    R"("coordinates": [[500010, 4999790, 210], [500250, 4999600, 140], [500400, 4999500, 120]]}}, )"
+                    R"({"type": "Feature", "properties": {"name": "b"}, "geometry": {"type": "LineString", )"
+                    R"("coordinates": [[500560, 4999400, 90], [500800, 4999300, 50], [500990, 4999010, 10]]}}, )"
+                    R"({"type": "Feature", "properties": {"name": "c"}, "geometry": {"type": "LineString", )"
+                    R"("coordinates": [[500900, 4999900, 150], [500850, 4999600, 80], [500800, 4999300, 50]]}}]})");
+        test::write(folder_.path() / "inputs/points.csv", "x,y,z\n500300,4999200,300\n500600,4999800,260\n");
+        Raster<float> dem(Grid{50, 50, 20.0, 500000.0, 5000000.0, "EPSG:32631"});
+        Raster<float> hill(Grid{12, 12, 20.0, 500000.0, 5000000.0, "EPSG:32632"});
+        for (Raster<float>* const raster : {&dem, &hill}) {
+            for (std::int64_t i = 0; i < raster->cells(); ++i) {
+                Cell const c = raster->grid().at(i);
+                (*raster)[i] = static_cast<float>(200 - 2 * c.col - c.row + 9 * ((c.col * 7 + c.row * 5) % 4));
+            }
+        }
+        dem[Cell{3, 45}] = std::numeric_limits<float>::quiet_NaN();
+        io::write_dem(dem, (folder_.path() / "inputs/dem.tif").string());
+        io::write_dem(hill, (folder_.path() / "inputs/hill.tif").string());
+    }
+
+    Document document(std::string const& recipe) const {
+        Document document = document_of(recipe);
+        document.recipe.folder = folder_.path().string();
+        return document;
+    }
+
+private:
+    io::TemporaryFolder folder_{"thalweg-engine"};
+};
+
+std::string const of_lines = "[grid]\nwidth = 50\nheight = 50\ncell = 20\norigin = [500000, 5000000]\n"
+                             "[network]\nsource = \"lines\"\n{}[network.lines]\npath = \"inputs/rivers.geojson\"\n";
+
+/// A recipe for each way to make terrain around rivers of a file, and a DEM.
+std::vector<std::string> recipes_of_files() {
+    auto const lines = [](std::string const& network, std::string const& rest) {
+        std::string recipe = of_lines;
+        return recipe.replace(recipe.find("{}"), 2, network) + rest;
+    };
+    std::string const points = "[skeleton]\npoints = \"inputs/points.csv\"\nridges = \"voronoi\"\n";
+    std::string const patch = "[[patch]]\nsource = \"inputs/hill.tif\"\nat = [500500, 4999500]\n";
+    return {lines("heights = \"graded\"\n", "[surface]\n" + patch),
+            lines("", "[surface]\n[output]\nagainst = \"inputs/dem.tif\"\n"),
+            lines("heights = \"straight\"\n", points + "[surface]\nmethod = \"diffuse\"\n"),
+            lines("heights = \"straight\"\n", "[surface]\nmethod = \"dilate\"\n" + patch),
+            lines("heights = \"straight\"\n", points + "[surface]\nmethod = \"tin\"\n"),
+            lines("", "[surface]\nmethod = \"raster\"\nsource = \"inputs/dem.tif\"\n" + patch),
+            "[surface]\nmethod = \"raster\"\nsource = \"inputs/dem.tif\"\n" + patch};
+}
+
 /// Makes a document and others that come of it, with the engine and anew.
-void expect_same_after_edits(std::string const& recipe, int edits, std::uint64_t seed) {
+void expect_same_after_edits(Document document, int edits, std::uint64_t seed) {
     Watched watched;
     std::mt19937_64 random(seed);
-    Document document = document_of(recipe);
     std::string what = "as it begins";
     std::string all;
     for (int i = 0; i <= edits; ++i) {
@@ -209,6 +278,11 @@ void expect_same_after_edits(std::string const& recipe, int edits, std::uint64_t
         ASSERT_EQ(told.measured != nullptr, fresh.has_value()) << told.failed << " / " << error;
         if (fresh) {
             ASSERT_TRUE(are_same(*told.measured, *fresh));
+            std::vector<std::string> stages;
+            for (StageTime const& time : make::timings_of(*fresh)) {
+                stages.push_back(time.stage);
+            }
+            ASSERT_EQ(recipe::forecast(document.recipe).stages, stages);
         }
         auto const [edit, after] = random_edit(document, random);
         what = name_of(edit);
@@ -220,16 +294,45 @@ void expect_same_after_edits(std::string const& recipe, int edits, std::uint64_t
 
 TEST(Engine, MakesWhatMakeMakes) {
     for (std::string const& recipe : {forest, cluster, tree, numbers}) {
-        expect_same_after_edits(recipe, 6, 1);
+        expect_same_after_edits(document_of(recipe), 6, 1);
+    }
+}
+
+TEST(Engine, MakesWhatMakeMakesOfFiles) {
+    Files const files;
+    for (std::string const& recipe : recipes_of_files()) {
+        expect_same_after_edits(files.document(recipe), 3, 2);
+    }
+}
+
+TEST(Engine, SaysWhatMakeSaysOfAKeptStage) {
+    Files const files;
+    Watched watched;
+    Document const first = files.document(recipes_of_files().front());
+    Document const sinks = edited(first, "network.inland", "sink");
+    Document const without = apply(first, {"", {UnsetKey{"patch.1"}}}).document;
+    auto const has = [](make::Made const& made, std::string_view kind) {
+        return std::ranges::any_of(make::findings_of(made), [&](Finding const& found) { return found.kind == kind; });
+    };
+    for (Document const& document : {first, sinks, without, first}) {
+        auto const made = watched.make(document).measured;
+        ASSERT_NE(made, nullptr);
+        EXPECT_TRUE(are_same(*made, make::make(document.recipe)));
+        EXPECT_EQ(has(*made, "lake_without_outline"), document.recipe.network->inland == recipe::InlandEnds::carry);
+        EXPECT_EQ(has(*made, "converted"), !document.recipe.patches.empty());
     }
 }
 
 TEST(SoakEngine, MakesWhatMakeMakesAfterRandomEdits) {
     std::uint64_t const seed = std::random_device()();
     for (std::string const& recipe : {forest, cluster, tree}) {
-        expect_same_after_edits(recipe, 60, seed);
+        expect_same_after_edits(document_of(recipe), 60, seed);
     }
-    expect_same_after_edits(numbers, 6, seed); // targets at random take minutes
+    Files const files;
+    for (std::string const& recipe : recipes_of_files()) {
+        expect_same_after_edits(files.document(recipe), 45, seed);
+    }
+    expect_same_after_edits(document_of(numbers), 6, seed); // targets at random take minutes
 }
 
 TEST(Engine, RunsTheStagesThatAnEditTouches) {

@@ -16,8 +16,8 @@
 #include <thalweg/network/planform/carry_outlets.hpp>
 #include <thalweg/network/planform/meander.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
-#include <thalweg/recipe/made_from.hpp>
 #include <thalweg/recipe/recipe_files.hpp>
+#include <thalweg/recipe/stage_recipes.hpp>
 #include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::make {
@@ -232,12 +232,12 @@ std::int64_t bytes_of(StreamNetwork const& network) {
     return static_cast<std::int64_t>(vertices_of(network) * sizeof(Vec2) + network.arc_count() * of_arc);
 }
 
-TimedSource source_of(recipe::Plan const& plan, Run const& run) {
+TimedSource source_of(RiversInput const& in, Run const& run) {
     return kept_or_made(
-        run, "source", [&] { return recipe::source_made_from(plan.recipe, plan.heights_of_file); },
+        run, "source", [&] { return recipe::cache_key(in.recipe); },
         [&] {
             StageLog stage_log(run);
-            SourceRivers rivers = rivers_of_source(plan, stage_log, run);
+            SourceRivers rivers = rivers_of_source(in, stage_log, run);
             return TimedSource{std::move(rivers), stage_log.take_findings(), stage_log.take()};
         },
         [](TimedSource const& source) {
@@ -246,40 +246,48 @@ TimedSource source_of(recipe::Plan const& plan, Run const& run) {
         });
 }
 
+/// Rivers, and how many of their findings are the source's.
+struct DrawnRivers {
+    Planform planform;
+    std::size_t of_source;
+};
+
 /// The rivers of a plan that has any.
-Planform drawn(recipe::Plan const& plan, Run const& run) {
+DrawnRivers drawn(RiversInput const& in, Run const& run) {
+    recipe::NetworkRecipe const& wanted = *in.recipe.network;
     StageLog stage_log(run);
-    TimedSource made = source_of(plan, run);
+    RiversInput of_source = in;
+    of_source.recipe = recipe::recipe_for_source(in.recipe);
+    TimedSource made = source_of(of_source, run);
     stage_log.add(made.timings_s);
     stage_log.find(made.findings);
     SourceRivers& source = made.rivers;
-    stage_log.find(recipe::conversions(plan.recipe, source.grid));
-    Pruned kept =
-        pruned(*plan.recipe.network, source.network, std::move(source.file), source.grid.cell_m, stage_log, run);
+    Pruned kept = pruned(wanted, source.network, std::move(source.file), source.grid.cell_m, stage_log, run);
     stage_log.find(kept.notes);
     NetworkStatistics statistics = statistics_of(std::move(source.statistics), kept);
-    Carried carried = with_outlets_carried(*plan.recipe.network, std::move(kept.network), source.grid,
-                                           std::move(source.land), source.file_heights.has_value(), run);
+    Carried carried = with_outlets_carried(wanted, std::move(kept.network), source.grid, std::move(source.land),
+                                           source.file_heights.has_value(), run);
     stage_log.find(carried.notes);
-    refuse_if<BadParameter>(has_meanders(plan.recipe) && source.file_heights,
+    refuse_if<BadParameter>(has_meanders(in.recipe) && source.file_heights,
                             "network.meander cannot bend rivers whose heights come from their "
                             "file; set network.heights = \"graded\" or leave meander out");
     Bent rivers =
-        bent(plan.recipe, std::move(carried.network), std::move(kept.file), source.grid, carried.land, stage_log, run);
-    Typed typed = type_rivers(std::move(rivers.network), *plan.recipe.network, run);
+        bent(in.recipe, std::move(carried.network), std::move(kept.file), source.grid, carried.land, stage_log, run);
+    Typed typed = type_rivers(std::move(rivers.network), wanted, run);
     std::optional<ElevatedNetwork> file_heights;
     if (source.file_heights) {
         file_heights = network::keep_heights(typed.network, *source.file_heights);
     }
-    return {.grid = source.grid,
-            .network = std::move(typed.network),
-            .types = std::move(typed.types),
-            .file_heights = std::move(file_heights),
-            .land = std::move(carried.land),
-            .file = std::move(rivers.file),
-            .statistics = std::move(statistics),
-            .findings = stage_log.take_findings(),
-            .timings_s = stage_log.take()};
+    return {{.grid = source.grid,
+             .network = std::move(typed.network),
+             .types = std::move(typed.types),
+             .file_heights = std::move(file_heights),
+             .land = std::move(carried.land),
+             .file = std::move(rivers.file),
+             .statistics = std::move(statistics),
+             .findings = stage_log.take_findings(),
+             .timings_s = stage_log.take()},
+            made.findings.size()};
 }
 
 } // namespace
@@ -288,13 +296,25 @@ Planform make_planform(recipe::Plan const& plan, Run const& run) {
     if (!plan.recipe.network) {
         return {};
     }
-    Planform planform = kept_or_made(
-        run, "planform", [&] { return recipe::planform_made_from(plan.recipe, plan.heights_of_file); },
-        [&] { return drawn(plan, run); },
-        [](Planform const& made) {
+    RiversInput const in{.recipe = recipe::recipe_for_planform(plan.recipe),
+                         .grid = plan.grid,
+                         .lines = plan.lines,
+                         .line_dem = plan.line_dem,
+                         .raster = plan.raster,
+                         .region = plan.region,
+                         .tree = plan.tree,
+                         .forest = plan.forest,
+                         .gaps = plan.land};
+    DrawnRivers made = kept_or_made(
+        run, "planform", [&] { return recipe::cache_key(in.recipe); }, [&] { return drawn(in, run); },
+        [](DrawnRivers const& kept) {
             constexpr std::int64_t copies = 4;
-            return copies * bytes_of(made.network) + made.land.cells();
+            return copies * bytes_of(kept.planform.network) + kept.planform.land.cells();
         });
+    Planform planform = std::move(made.planform);
+    std::vector<Finding> const conversions = recipe::conversions(plan.recipe, planform.grid); // of all its files
+    planform.findings.insert(planform.findings.begin() + static_cast<std::ptrdiff_t>(made.of_source),
+                             conversions.begin(), conversions.end());
     run.report(planform.findings);
     return planform;
 }

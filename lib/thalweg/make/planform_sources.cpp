@@ -25,7 +25,7 @@
 #include <thalweg/network/planform/rotate.hpp>
 #include <thalweg/network/vectorise/vectorise.hpp>
 #include <thalweg/recipe/frame.hpp>
-#include <thalweg/recipe/made_from.hpp>
+#include <thalweg/recipe/stage_recipes.hpp>
 
 namespace thalweg::make {
 namespace {
@@ -77,9 +77,10 @@ growth::Branch branch_of(growth::Cluster const& cluster, recipe::Recipe const& r
 } // namespace
 
 growth::Cluster cluster_of(recipe::Recipe const& recipe, Run const& run) {
+    recipe::Recipe const read = recipe::recipe_for_cluster(recipe);
     return kept_or_made(
-        run, "cluster", [&] { return recipe::cluster_made_from(recipe); },
-        [&] { return growth::grow_dla(recipe.network->dla, run); },
+        run, "cluster", [&] { return recipe::cache_key(read); },
+        [&] { return growth::grow_dla(read.network->dla, run); },
         [](growth::Cluster const& cluster) { return static_cast<std::int64_t>(cluster.cells.size() * sizeof(Cell)); });
 }
 
@@ -193,15 +194,15 @@ void judge_room(std::int64_t placed, std::int64_t dropped, Grid const& grid, Sta
     }
 }
 
-SourceRivers fill_region(recipe::Plan const& plan, StageLog& stage_log, Run const& run) {
-    recipe::TokunagaRecipe const& wanted = plan.recipe.network->tokunaga;
-    growth::TokunagaTree const& tree = *plan.tree;
-    Grid const& grid = *plan.grid;
+SourceRivers fill_region(RiversInput const& in, StageLog& stage_log, Run const& run) {
+    recipe::TokunagaRecipe const& wanted = in.recipe.network->tokunaga;
+    growth::TokunagaTree const& tree = *in.tree;
+    Grid const& grid = *in.grid;
     TokunagaStatistics statistics;
     statistics.tree = network::count_streams(downstream(tree));
-    Region const region = plan.region ? inside(*plan.region, wanted.mouth) : within(grid, wanted.mouth);
+    Region const region = in.region ? inside(*in.region, wanted.mouth) : within(grid, wanted.mouth);
     growth::EmbedParams params;
-    params.seed = plan.recipe.seed;
+    params.seed = in.recipe.seed;
     params.region = region.ring;
     params.mouth = region.mouth;
     params.min_spacing_m = wanted.spacing_cells * grid.cell_m;
@@ -214,15 +215,15 @@ SourceRivers fill_region(recipe::Plan const& plan, StageLog& stage_log, Run cons
     return {.network = std::move(embedded.network), .grid = grid, .statistics = {.tokunaga = std::move(statistics)}};
 }
 
-SourceRivers follow_strokes(recipe::Plan const& plan, StageLog& stage_log, Run const& run) {
-    recipe::TokunagaRecipe const& wanted = plan.recipe.network->tokunaga;
-    Grid const& grid = *plan.grid;
+SourceRivers follow_strokes(RiversInput const& in, StageLog& stage_log, Run const& run) {
+    recipe::TokunagaRecipe const& wanted = in.recipe.network->tokunaga;
+    Grid const& grid = *in.grid;
     growth::StrokesParams params;
-    params.tree = recipe::tree_of(plan.recipe);
+    params.tree = recipe::tree_of(in.recipe);
     params.max_depth = std::max(wanted.order - 1, 1); // each refinement raises the order by one
     params.min_spacing_m = wanted.spacing_cells * grid.cell_m;
     growth::GrownStrokes grown =
-        stage_log.stage("grow", [&] { return growth::grow_strokes(plan.lines, grid, params, run); });
+        stage_log.stage("grow", [&] { return growth::grow_strokes(in.lines, grid, params, run); });
     TokunagaStatistics statistics;
     statistics.placed = grown.placed;
     statistics.dropped = grown.dropped;
@@ -232,8 +233,8 @@ SourceRivers follow_strokes(recipe::Plan const& plan, StageLog& stage_log, Run c
 }
 
 // Networks that branch by Tokunaga's law: one that fills the grid or a region, or one along each stroke of a file.
-SourceRivers rivers_of_tree(recipe::Plan const& plan, StageLog& stage_log, Run const& run) {
-    return plan.tree ? fill_region(plan, stage_log, run) : follow_strokes(plan, stage_log, run);
+SourceRivers rivers_of_tree(RiversInput const& in, StageLog& stage_log, Run const& run) {
+    return in.tree ? fill_region(in, stage_log, run) : follow_strokes(in, stage_log, run);
 }
 
 // Trees that grow from a coast or border inland until the land is full of them. Every outlet lies there.
@@ -490,28 +491,27 @@ std::optional<ElevatedNetwork> heights_of_file(recipe::Heights heights, RiverLin
 }
 
 // The lines of a file.
-SourceRivers rivers_of_lines(recipe::Plan const& plan, StageLog& stage_log, Run const& run) {
-    recipe::LinesRecipe const& wanted = plan.recipe.network->lines;
-    bool const has_sea = has_coastlines(*plan.recipe.network, plan.lines);
-    bool const may_end = has_sea || plan.recipe.network->inland != recipe::InlandEnds::carry;
+SourceRivers rivers_of_lines(RiversInput const& in, StageLog& stage_log, Run const& run) {
+    recipe::LinesRecipe const& wanted = in.recipe.network->lines;
+    bool const has_sea = has_coastlines(*in.recipe.network, in.lines);
+    bool const may_end = has_sea || in.recipe.network->inland != recipe::InlandEnds::carry;
     network::ImportParams const params{.snap_m = wanted.snap_m,
                                        .orientation = wanted.orientation,
                                        .divergences = wanted.divergences,
-                                       .cell_m = wanted.snap_m > 0.0 ? 0.0 : plan.grid->cell_m,
-                                       .dem = plan.line_dem.cells() > 0 ? &plan.line_dem : nullptr,
-                                       .frame = &*plan.grid,
+                                       .cell_m = wanted.snap_m > 0.0 ? 0.0 : in.grid->cell_m,
+                                       .dem = in.line_dem.cells() > 0 ? &in.line_dem : nullptr,
+                                       .frame = &*in.grid,
                                        .drains_lakes = !may_end};
-    network::Imported imported =
-        stage_log.stage("adopt", [&] { return network::import_lines(plan.lines, params, run); });
+    network::Imported imported = stage_log.stage("adopt", [&] { return network::import_lines(in.lines, params, run); });
     SourceRivers rivers;
-    rivers.grid = *plan.grid;
-    std::vector<Finding> const left = left_out(plan.lines);
+    rivers.grid = *in.grid;
+    std::vector<Finding> const left = left_out(in.lines);
     stage_log.find(left);
     if (may_end) {
         std::erase_if(imported.repairs, [](Finding const& f) { return f.kind == FindingKind("lake_without_outflow"); });
     }
     stage_log.find(imported.repairs);
-    rivers.file = file_of(plan.lines, imported);
+    rivers.file = file_of(in.lines, imported);
     std::size_t const secondary = rivers.file.secondary.size();
     stage_log.say(fmt::format("{} arcs, {} repairs{}", imported.network.arc_count(),
                               left.size() + imported.repairs.size(),
@@ -522,9 +522,9 @@ SourceRivers rivers_of_lines(recipe::Plan const& plan, StageLog& stage_log, Run 
     std::vector<network::Hollow> const around =
         may_end ? std::vector<network::Hollow>() : network::hollows(imported.network, rivers.grid, run);
     warn_of_gaps(imported.network, rivers.grid, wanted.snap_m, has_sea, around, stage_log, run);
-    warn_of_hollows(imported.network, around, plan.lines.lakes, rivers.grid.cell_m, stage_log);
-    rivers.land = has_sea ? land_of_coastlines(plan.lines, rivers.grid, stage_log, run) : Mask{};
-    rivers.file_heights = heights_of_file(plan.recipe.network->heights, plan.lines, imported, stage_log);
+    warn_of_hollows(imported.network, around, in.lines.lakes, rivers.grid.cell_m, stage_log);
+    rivers.land = has_sea ? land_of_coastlines(in.lines, rivers.grid, stage_log, run) : Mask{};
+    rivers.file_heights = heights_of_file(in.recipe.network->heights, in.lines, imported, stage_log);
     rivers.network = std::move(imported.network);
     return rivers;
 }
@@ -548,21 +548,21 @@ Mask without_gaps(Mask land, Raster<float> const& dem, Mask const& gaps) {
     return land;
 }
 
-SourceRivers rivers_by_source(recipe::Plan const& plan, StageLog& stage_log, Run const& run) {
-    switch (plan.recipe.network->source) {
-    case recipe::Source::dla: return rivers_of_cluster(plan.recipe, stage_log, run);
-    case recipe::Source::tokunaga: return rivers_of_tree(plan, stage_log, run);
-    case recipe::Source::forest: return rivers_of_forest(plan.recipe, *plan.forest, stage_log, run);
+SourceRivers rivers_by_source(RiversInput const& in, StageLog& stage_log, Run const& run) {
+    switch (in.recipe.network->source) {
+    case recipe::Source::dla: return rivers_of_cluster(in.recipe, stage_log, run);
+    case recipe::Source::tokunaga: return rivers_of_tree(in, stage_log, run);
+    case recipe::Source::forest: return rivers_of_forest(in.recipe, *in.forest, stage_log, run);
     case recipe::Source::lines: break;
     }
-    return rivers_of_lines(plan, stage_log, run);
+    return rivers_of_lines(in, stage_log, run);
 }
 
 } // namespace
 
-SourceRivers rivers_of_source(recipe::Plan const& plan, StageLog& stage_log, Run const& run) {
-    SourceRivers rivers = rivers_by_source(plan, stage_log, run);
-    rivers.land = without_gaps(std::move(rivers.land), plan.raster, plan.land);
+SourceRivers rivers_of_source(RiversInput const& in, StageLog& stage_log, Run const& run) {
+    SourceRivers rivers = rivers_by_source(in, stage_log, run);
+    rivers.land = without_gaps(std::move(rivers.land), in.raster, in.gaps);
     return rivers;
 }
 

@@ -20,41 +20,53 @@
 #include <thalweg/network/channels/side_valleys.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
 #include <thalweg/recipe/check_recipe.hpp>
-#include <thalweg/recipe/made_from.hpp>
 #include <thalweg/recipe/recipe_files.hpp>
+#include <thalweg/recipe/stage_recipes.hpp>
 #include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::make {
 namespace {
 
+/// What a surface is made from. It refers to values of a plan and its rivers for the time of a call.
+struct SurfaceInput {
+    recipe::Recipe recipe; ///< recipe_for_surface()
+    Planform const& planform;
+    std::optional<Grid> const& grid; ///< this and what follows as GroundInput
+    FeaturePoints const& points;
+    RiverLines const& ridges;
+    Raster<float> const& raster;
+    std::optional<recipe::LikeDem> const& like;
+    Mask const& gaps;
+    bool has_coastlines;
+};
+
 /// A surface before patches and drainage.
-Surface undrained(recipe::Plan const& plan, Planform const& planform, Run const& run) {
-    recipe::Recipe const& recipe = plan.recipe;
+Surface undrained(SurfaceInput const& from, Run const& run) {
+    recipe::Recipe const& recipe = from.recipe;
     bool const has_rivers = recipe.network.has_value();
-    Grid const& fine = has_rivers ? planform.grid : *plan.grid;
+    Grid const& fine = has_rivers ? from.planform.grid : *from.grid;
     StageLog stage_log(run);
     if (!has_rivers) {
-        stage_log.find(recipe::conversions(recipe, fine));
         stage_log.find(require_targets(recipe, fine));
-    } else if (!plan.grid) { // else it was checked before the rivers were grown
+    } else if (!from.grid) { // else it was checked before the rivers were grown
         recipe::check_detail(recipe, fine.width, fine.height);
-        recipe::require_skeleton_on_grid(recipe, plan.points, plan.ridge_lines, fine);
+        recipe::require_skeleton_on_grid(recipe, from.points, from.ridges, fine);
     }
     RaisedRivers const raised = has_rivers && !heights_follow_terrain(recipe)
-                                    ? raise_rivers(recipe, plan.raster, planform, stage_log, run)
+                                    ? raise_rivers(recipe, from.raster, from.planform, stage_log, run)
                                     : RaisedRivers{};
     Grid const grid = has_rivers ? fine : recipe::coarse_grid(fine, recipe::levels_of(recipe));
     GroundInput const in{.recipe = recipe,
                          .grid = grid,
                          .fine = fine,
-                         .planform = planform,
+                         .planform = from.planform,
                          .rivers = raised,
-                         .points = plan.points,
-                         .ridges = plan.ridge_lines,
-                         .raster = plan.raster,
-                         .like = plan.like,
-                         .gaps = plan.land,
-                         .has_coastlines = has_rivers && has_coastlines(*recipe.network, plan.lines)};
+                         .points = from.points,
+                         .ridges = from.ridges,
+                         .raster = from.raster,
+                         .like = from.like,
+                         .gaps = from.gaps,
+                         .has_coastlines = from.has_coastlines};
     Surface surface = refined(ground_of(recipe)(in, run), in, run);
     stage_log.find(surface.notes.findings);
     stage_log.add(surface.notes.timings_s);
@@ -65,9 +77,17 @@ Surface undrained(recipe::Plan const& plan, Planform const& planform, Run const&
 
 /// The same, kept for the next terrain that is made from it.
 Surface drawn(recipe::Plan const& plan, Planform const& planform, Run const& run) {
+    SurfaceInput const from{.recipe = recipe::recipe_for_surface(plan.recipe),
+                            .planform = planform,
+                            .grid = plan.grid,
+                            .points = plan.points,
+                            .ridges = plan.ridge_lines,
+                            .raster = plan.raster,
+                            .like = plan.like,
+                            .gaps = plan.land,
+                            .has_coastlines = plan.recipe.network && has_coastlines(*plan.recipe.network, plan.lines)};
     return kept_or_made(
-        run, "surface", [&] { return recipe::surface_made_from(plan.recipe, plan.heights_of_file); },
-        [&] { return undrained(plan, planform, run); },
+        run, "surface", [&] { return recipe::cache_key(from.recipe); }, [&] { return undrained(from, run); },
         [](Surface const& made) {
             constexpr std::int64_t of_cell = 16; // heights, valley, levels
             return of_cell * made.ground.dem.cells();
@@ -213,6 +233,9 @@ Terrain terrain_with_surface(recipe::Plan const& plan, Planform const& planform,
     recipe::Recipe const& recipe = plan.recipe;
     bool const has_rivers = recipe.network.has_value();
     StageLog stage_log(run);
+    if (!has_rivers) { // else they are among the rivers' findings
+        stage_log.find(recipe::conversions(recipe, *plan.grid));
+    }
     Surface surface = drawn(plan, planform, run);
     stage_log.add(surface.notes.timings_s);
     stage_log.find(surface.notes.findings);

@@ -160,10 +160,11 @@ Recipe rebuild_recipe(Recipe recipe, Run const& run) {
 
 Recipe settled_recipe(Recipe const& wanted, Run const& run) {
     check_recipe(wanted);
-    OnRaster const on = on_raster(wanted) ? settle_on_raster(wanted, run) : OnRaster{wanted};
+    OnRaster const on = on_raster(wanted) ? settle_on_raster(wanted, run) : OnRaster{wanted.grid};
     StageLog stage_log(run);
     stage_log.find(on.findings);
-    Recipe settled = on.recipe;
+    Recipe settled = wanted;
+    settled.grid = on.grid;
     if (wanted.network && wanted.network->source == Source::lines) {
         RiverLines const lines = read_lines(settled, run);
         stage_log.find(lines.findings);

@@ -25,9 +25,9 @@
 #include <thalweg/network/planform/rotate.hpp>
 #include <thalweg/recipe/check_recipe.hpp>
 #include <thalweg/recipe/frame.hpp>
-#include <thalweg/recipe/made_from.hpp>
 #include <thalweg/recipe/read_inputs.hpp>
 #include <thalweg/recipe/recipe_files.hpp>
+#include <thalweg/recipe/stage_recipes.hpp>
 
 namespace thalweg::recipe {
 namespace {
@@ -350,9 +350,10 @@ Plan with_heights_of_lines(Plan plan, RiverLines const& lines) {
 }
 
 Plan plan_lines(Recipe recipe, Raster<float> const& raster, StageLog& stage_log, Run const& run) {
+    Recipe const of_lines = recipe_for_lines(recipe);
     RiverLines lines = stage_log.stage("read", [&] {
         return kept_or_made(
-            run, "lines", [&] { return lines_made_from(recipe); }, [&] { return read_lines(recipe, run); },
+            run, "lines", [&] { return cache_key(of_lines); }, [&] { return read_lines(of_lines, run); },
             [](RiverLines const& read) {
                 constexpr std::int64_t of_line = 1024; // vertices and attributes
                 return of_line * static_cast<std::int64_t>(read.lines.size() + read.secondary.size());
@@ -539,19 +540,16 @@ void require_fit(Plan const& plan) {
 /// The DEM that is the surface, if there is one, on the grid that it settles.
 OnRaster with_raster(Recipe const& recipe, StageLog& stage_log, Run const& run) {
     if (!on_raster(recipe)) {
-        return {.recipe = recipe};
+        return {.grid = recipe.grid};
     }
     require_files(recipe);
+    Recipe const of_raster = recipe_for_raster(recipe);
     OnRaster on = stage_log.stage("raster", [&] {
         return kept_or_made(
-            run, "raster", [&] { return raster_made_from(recipe); }, [&] { return settle_on_raster(recipe, run); },
+            run, "raster", [&] { return cache_key(of_raster); }, [&] { return settle_on_raster(of_raster, run); },
             [](OnRaster const& made) { return made.dem.cells() * static_cast<std::int64_t>(sizeof(float)); });
     });
     stage_log.find(on.findings);
-    GridRecipe const settled = on.recipe.grid;
-    on.recipe = recipe; // what is kept may come from another one
-    on.recipe.grid = settled;
-    on.recipe.grid.clip = recipe.grid.clip;
     Grid const& grid = on.dem.grid();
     auto const without = std::ranges::count_if(on.dem.values(), [](float z) { return std::isnan(z); });
     stage_log.say(fmt::format("{}x{} cells of {:.6g} m{}", grid.width, grid.height, grid.cell_m,
@@ -565,7 +563,9 @@ Plan resolve(Recipe const& recipe, Run const& run) {
     check_recipe(recipe);
     StageLog stage_log(run);
     OnRaster on = with_raster(recipe, stage_log, run);
-    Plan plan = by_source(on.recipe, on.dem, stage_log, run);
+    Recipe on_grid = recipe;
+    on_grid.grid = std::move(on.grid);
+    Plan plan = by_source(on_grid, on.dem, stage_log, run);
     plan.raster = std::move(on.dem);
     plan = with_rivers_settled(std::move(plan), stage_log, run);
     plan = with_surface_settled(std::move(plan));

@@ -470,12 +470,12 @@ std::string crs_of_rivers(Recipe const& recipe, Run const& run) {
 
 } // namespace
 
-OnRaster settle_on_raster(Recipe recipe, Run const& run) {
+OnRaster settle_on_raster(Recipe const& recipe, Run const& run) {
     std::string const what = fmt::format("surface.source = \"{}\"", recipe.surface->source);
     io::DemFile read = io::read_dem_file(file_in(recipe, recipe.surface->source), {}, run);
     Raster<float> given = std::move(read.dem);
     std::vector<Finding> findings = std::move(read.findings);
-    GridRecipe& wanted = recipe.grid;
+    GridRecipe wanted = recipe.grid;
     bool const is_nowhere = given.grid().crs.empty();
     if (wanted.crs.empty()) {
         wanted.crs = is_nowhere ? crs_of_rivers(recipe, run) : io::metric_crs(given.grid(), what);
@@ -490,15 +490,14 @@ OnRaster settle_on_raster(Recipe recipe, Run const& run) {
     }
     Grid const own = given.grid();
     Grid const grid = grid_of_raster(given, wanted, what);
-    wanted = on_cells_of(grid, std::move(wanted));
-    OnRaster settled{std::move(recipe), io::resample(given, grid, what, run), std::move(findings)};
+    OnRaster settled{on_cells_of(grid, std::move(wanted)), io::resample(given, grid, what, run), std::move(findings)};
     refuse_if<BadInput>(std::ranges::all_of(settled.dem.values(), [](float z) { return std::isnan(z); }),
                         "{} has no height within the grid, which reaches from ({}, {}) to ({}, {}) in {:.60}: leave "
                         "grid.origin, width and height out, or move them to the DEM",
                         what, grid.west, grid.south(), grid.east(), grid.north, grid.crs);
     if (!io::same_crs(own.crs, grid.crs, what, "the grid") || !io::same_lattice(own, grid)) {
         settled.findings.push_back({.kind = "resampled",
-                                    .text = fmt::format("{} is resampled from {} to {}", settled.recipe.surface->source,
+                                    .text = fmt::format("{} is resampled from {} to {}", recipe.surface->source,
                                                         words_for_cells(own), words_for_cells(grid)),
                                     .key = "surface.source"});
     }

@@ -86,17 +86,16 @@ struct OnLines {
 };
 OnLines settle_on_lines(Recipe recipe, RiverLines const& lines, StageLog& stage_log, Run const& run);
 
-/// A recipe whose [grid] is settled by the DEM of surface.source as far as it leaves that open, and the DEM on that
-/// grid.
+/// A recipe's [grid], settled by the DEM of surface.source as far as it leaves that open, and the DEM on that grid.
 struct OnRaster {
-    Recipe recipe;
+    GridRecipe grid;
     Raster<float> dem = {};
     std::vector<Finding> findings = {};
 };
 
 /// Heights of a file without a coordinate system are taken to be in that of the grid.
 /// \throws Error as io::read_dem and io::resample; BadInput when no cell of the grid has a height
-OnRaster settle_on_raster(Recipe recipe, Run const& run);
+OnRaster settle_on_raster(Recipe const& recipe, Run const& run);
 
 /// The usual mean slope [degrees] of terrain with cells of this size: gentler for coarser cells. Within 6 % of the mean
 /// slopes of Big Tujunga averaged to cells of 75 to 1200 m.

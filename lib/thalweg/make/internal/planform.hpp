@@ -14,6 +14,19 @@
 
 namespace thalweg::make {
 
+/// What rivers are made from. It refers to values of a plan for the time of a call.
+struct RiversInput {
+    recipe::Recipe recipe; ///< with the keys that the stage reads: recipe_for_source() or recipe_for_planform()
+    std::optional<Grid> const& grid;
+    RiverLines const& lines; ///< this and what follows as Plan
+    Raster<float> const& line_dem;
+    Raster<float> const& raster;
+    std::optional<Polygons> const& region;
+    std::optional<growth::TokunagaTree> const& tree;
+    std::optional<recipe::ForestLand> const& forest;
+    Mask const& gaps; ///< Plan::land
+};
+
 /// A network as its source gives it, before it is pruned, carried, bent and typed.
 struct SourceRivers {
     StreamNetwork network;
@@ -24,9 +37,8 @@ struct SourceRivers {
     NetworkStatistics statistics = {};
 };
 
-/// Grows or imports the rivers of a plan: one branch of a DLA cluster, networks by Tokunaga's law, a forest, or the
-/// lines of a file.
-SourceRivers rivers_of_source(recipe::Plan const& plan, StageLog& stage_log, Run const& run);
+/// Grows or imports rivers: one branch of a DLA cluster, networks by Tokunaga's law, a forest, or the lines of a file.
+SourceRivers rivers_of_source(RiversInput const& in, StageLog& stage_log, Run const& run);
 
 /// A network whose arcs name their types.
 struct Typed {
