@@ -93,38 +93,44 @@ SurfaceMeasures of_surface(recipe::Recipe const& recipe, Terrain const& terrain,
     Raster<float> const& dem = terrain.ground.dem;
     StreamNetwork const& network = terrain.rivers.network.planform;
     SurfaceMeasures found;
-    found.statistics = stage_log.stage("measure", [&] { return measure::statistics(dem, run); });
+    found.statistics = stage_log.stage(recipe::stage::measure.name, [&] { return measure::statistics(dem, run); });
     found.hypsometry = measure::hypsometry(dem, run);
     found.pits = drainage.pits;
     found.pit_volume_m3 = drainage.pit_volume_m3;
-    if (finds_catchments(recipe)) {
-        found.catchments =
-            stage_log.stage("catchments", [&] { return flow::catchments(flow::reaches_of(network), drainage, run); });
+    if (recipe::stage::catchments.runs(recipe)) {
+        found.catchments = stage_log.stage(recipe::stage::catchments.name,
+                                           [&] { return flow::catchments(flow::reaches_of(network), drainage, run); });
     }
     if (recipe.network) {
         if (recipe.network->inland == recipe::InlandEnds::sink) {
             found.sinks = inland_ends(network, dem);
         }
-        found.certificate = stage_log.stage("certify", [&] {
+        found.certificate = stage_log.stage(recipe::stage::certify.name, [&] {
             return measure::certify(dem, drainage, flow::reaches_of(network), claims_of(recipe, terrain), run);
         });
     }
-    if (!terrain.ground.ridges.lines.empty()) {
-        found.surface_ridges =
-            stage_log.stage("ridges", [&] { return measure::extract_ridges(dem, terrain.ground.ridges, run); });
+    if (recipe::stage::ridges.runs(recipe)) {
+        found.surface_ridges = stage_log.stage(recipe::stage::ridges.name, [&] {
+            return terrain.ground.ridges.lines.empty()
+                       ? std::nullopt
+                       : std::optional(measure::extract_ridges(dem, terrain.ground.ridges, run));
+        });
+    }
+    if (found.surface_ridges) {
         measure::Agreement const& within_a_cell = found.surface_ridges->extracted[1];
         stage_log.say(
             fmt::format("{:.0f} % of those asked for are ridges of the surface, {:.0f} % of its own are asked for",
                         100.0 * within_a_cell.recall, 100.0 * within_a_cell.precision));
     }
-    if (measures_areas(recipe)) {
-        found.water_areas = stage_log.stage("areas", [&] {
+    if (recipe::stage::areas.runs(recipe)) {
+        found.water_areas = stage_log.stage(recipe::stage::areas.name, [&] {
             return WaterAreas{areas_m2(drainage), areas_m2(flow::route_dinf(dem, drainage, run).area_cells)};
         });
     }
-    found.laws = stage_log.stage("laws", [&] { return laws_of_terrain(terrain, found.statistics->cells, run); });
-    found.relief =
-        stage_log.stage("relief", [&] { return relief_of_terrain(recipe, terrain, *found.statistics, run); });
+    found.laws = stage_log.stage(recipe::stage::laws.name,
+                                 [&] { return laws_of_terrain(terrain, found.statistics->cells, run); });
+    found.relief = stage_log.stage(recipe::stage::relief.name,
+                                   [&] { return relief_of_terrain(recipe, terrain, *found.statistics, run); });
     warn_of_texture(recipe, terrain, *found.relief, stage_log);
     return found;
 }
@@ -141,7 +147,7 @@ std::vector<Finding> findings_of(std::optional<measure::Certificate> const& cert
 
 /// Checks the network's topology: arcs descend and connect.
 measure::TopologyReport topology_of(Terrain const& terrain, StageLog& stage_log, Run const& run) {
-    return stage_log.stage("check", [&] {
+    return stage_log.stage(recipe::stage::check.name, [&] {
         return measure::check_topology(measure::as_file(terrain.rivers.network, terrain.rivers.orders), {}, run);
     });
 }
@@ -339,9 +345,10 @@ Assessment assess(recipe::Plan const& plan, Planform const& planform, Terrain co
     if (found.given_areas) {
         stage_log.find({.kind = "areas", .text = line_of(*found.given_areas)});
     }
-    if (plan.against.cells() > 0) {
-        found.against = stage_log.stage(
-            "compare", [&] { return compare_with_dem(plan.against, recipe.output.against, terrain, run); });
+    if (recipe::stage::compare.runs(recipe)) {
+        found.against = stage_log.stage(recipe::stage::compare.name, [&] {
+            return compare_with_dem(plan.against, recipe.output.against, terrain, run);
+        });
         stage_log.say(line_of(*found.against));
     }
     found.findings = stage_log.take_findings();

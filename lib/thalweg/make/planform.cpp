@@ -49,12 +49,12 @@ struct Bent {
 /// Bends rivers where the plan wants it; where there is a sea, none leaves the land.
 Bent bent(recipe::Recipe const& recipe, StreamNetwork network, RiverFile file, Grid const& grid, Mask const& land,
           StageLog& stage_log, Run const& run) {
-    if (!has_meanders(recipe)) {
+    if (!recipe::stage::meander.runs(recipe)) {
         return {std::move(network), std::move(file)};
     }
     flow::ContributingAreas const areas = flow::areas_nearest(network, grid, run);
     network::MeanderParams const params{.gain = *recipe.network->meander, .seed = recipe.seed};
-    network::Meandered meandered = stage_log.stage("meander", [&] {
+    network::Meandered meandered = stage_log.stage(recipe::stage::meander.name, [&] {
         return land.cells() > 0 ? network::meander(network, land, areas.ds_area_m2, params, run)
                                 : network::meander(network, grid, areas.ds_area_m2, params, run);
     });
@@ -200,8 +200,8 @@ struct Pruned {
 
 Pruned pruned(recipe::NetworkRecipe const& rivers, StreamNetwork const& network, RiverFile file, double cell_m,
               StageLog& stage_log, Run const& run) {
-    network::Pruned kept =
-        stage_log.stage("prune", [&] { return prune(network, rivers, *rivers.prune_cells, cell_m, run); });
+    network::Pruned kept = stage_log.stage(recipe::stage::prune.name,
+                                           [&] { return prune(network, rivers, *rivers.prune_cells, cell_m, run); });
     stage_log.say(
         fmt::format("L={}   {} of {} arcs kept", *rivers.prune_cells, kept.network.arc_count(), kept.arcs_before));
     std::vector<Finding> notes;
@@ -268,7 +268,7 @@ DrawnRivers drawn(RiversInput const& in, Run const& run) {
     Carried carried = with_outlets_carried(wanted, std::move(kept.network), source.grid, std::move(source.land),
                                            source.file_heights.has_value(), run);
     stage_log.find(carried.notes);
-    refuse_if<BadParameter>(has_meanders(in.recipe) && source.file_heights,
+    refuse_if<BadParameter>(recipe::stage::meander.runs(in.recipe) && source.file_heights,
                             "network.meander cannot bend rivers whose heights come from their "
                             "file; set network.heights = \"graded\" or leave meander out");
     Bent rivers =

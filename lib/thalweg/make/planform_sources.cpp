@@ -26,6 +26,7 @@
 #include <thalweg/network/vectorise/vectorise.hpp>
 #include <thalweg/recipe/frame.hpp>
 #include <thalweg/recipe/stage_recipes.hpp>
+#include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::make {
 namespace {
@@ -91,7 +92,7 @@ SourceRivers rivers_of_cluster(recipe::Recipe const& recipe, StageLog& stage_log
     recipe::NetworkRecipe const& wanted = *recipe.network;
     NetworkStatistics statistics;
     run.at(0.0, fmt::format("grow {} particles", wanted.dla.particles).c_str());
-    growth::Cluster const cluster = stage_log.stage("grow", [&] { return cluster_of(recipe, run); });
+    growth::Cluster const cluster = stage_log.stage(recipe::stage::grow.name, [&] { return cluster_of(recipe, run); });
     statistics.wide = cluster.stop == growth::GrowthStop::radius;
     stage_log.say(fmt::format("{} particles  seed {}  radius {:.0f} cells{}", cluster.cells.size(), recipe.seed,
                               cluster.radius, statistics.wide ? ", where it stops" : ""));
@@ -103,8 +104,9 @@ SourceRivers rivers_of_cluster(recipe::Recipe const& recipe, StageLog& stage_log
     double const turn_deg = *wanted.rotate_deg;
     recipe::FramedBranch const framed =
         recipe::frame_branch(branch, turn_deg == 0.0 ? recipe.grid : loosely_framed(recipe.grid));
-    Mask const skeleton = stage_log.stage("thin", [&] { return network::thin(framed.mask, run); });
-    StreamNetwork network = stage_log.stage("trace", [&] { return network::trace(skeleton, {framed.mouth}, run); });
+    Mask const skeleton = stage_log.stage(recipe::stage::thin.name, [&] { return network::thin(framed.mask, run); });
+    StreamNetwork network =
+        stage_log.stage(recipe::stage::trace.name, [&] { return network::trace(skeleton, {framed.mouth}, run); });
     Grid grid = framed.mask.grid();
     if (turn_deg != 0.0) {
         network::Rotated turned =
@@ -206,7 +208,8 @@ SourceRivers fill_region(RiversInput const& in, StageLog& stage_log, Run const& 
     params.region = region.ring;
     params.mouth = region.mouth;
     params.min_spacing_m = wanted.spacing_cells * grid.cell_m;
-    growth::EmbeddedTree embedded = stage_log.stage("embed", [&] { return growth::embed_tree(tree, params, run); });
+    growth::EmbeddedTree embedded =
+        stage_log.stage(recipe::stage::embed.name, [&] { return growth::embed_tree(tree, params, run); });
     statistics.placed = embedded.placed;
     statistics.dropped = embedded.dropped;
     stage_log.say(
@@ -223,7 +226,7 @@ SourceRivers follow_strokes(RiversInput const& in, StageLog& stage_log, Run cons
     params.max_depth = std::max(wanted.order - 1, 1); // each refinement raises the order by one
     params.min_spacing_m = wanted.spacing_cells * grid.cell_m;
     growth::GrownStrokes grown =
-        stage_log.stage("grow", [&] { return growth::grow_strokes(in.lines, grid, params, run); });
+        stage_log.stage(recipe::stage::grow.name, [&] { return growth::grow_strokes(in.lines, grid, params, run); });
     TokunagaStatistics statistics;
     statistics.placed = grown.placed;
     statistics.dropped = grown.dropped;
@@ -244,8 +247,8 @@ SourceRivers rivers_of_forest(recipe::Recipe const& recipe, recipe::ForestLand c
     growth::ForestParams params = wanted.growth;
     params.step_cells = wanted.spacing_cells / 2;
     params.seed = recipe.seed;
-    growth::PlantedForest planted =
-        stage_log.stage("grow", [&] { return growth::plant_forest(on.land, on.outlets, params, run); });
+    growth::PlantedForest planted = stage_log.stage(
+        recipe::stage::grow.name, [&] { return growth::plant_forest(on.land, on.outlets, params, run); });
     stage_log.say(fmt::format("{} trees of {} particles  seed {}", planted.outlets, planted.particles, recipe.seed));
     stage_log.find(planted.notes);
     NetworkStatistics statistics;
@@ -398,7 +401,7 @@ Mask land_of_coastlines(RiverLines const& lines, Grid const& grid, StageLog& sta
         }
     }
     network::LandAndSea divided =
-        stage_log.stage("sea", [&] { return network::land_and_sea(coast, lines, grid, run); });
+        stage_log.stage(recipe::stage::sea.name, [&] { return network::land_and_sea(coast, lines, grid, run); });
     stage_log.say(fmt::format("{:.3g} % of the grid, by {} coastlines",
                               100.0 * static_cast<double>(divided.sea_cells) / static_cast<double>(grid.cells()),
                               coast.lines.size()));
@@ -493,7 +496,7 @@ std::optional<ElevatedNetwork> heights_of_file(recipe::Heights heights, RiverLin
 // The lines of a file.
 SourceRivers rivers_of_lines(RiversInput const& in, StageLog& stage_log, Run const& run) {
     recipe::LinesRecipe const& wanted = in.recipe.network->lines;
-    bool const has_sea = has_coastlines(*in.recipe.network, in.lines);
+    bool const has_sea = recipe::stage::sea.runs(in.recipe, in.lines);
     bool const may_end = has_sea || in.recipe.network->inland != recipe::InlandEnds::carry;
     network::ImportParams const params{.snap_m = wanted.snap_m,
                                        .orientation = wanted.orientation,
@@ -502,7 +505,8 @@ SourceRivers rivers_of_lines(RiversInput const& in, StageLog& stage_log, Run con
                                        .dem = in.line_dem.cells() > 0 ? &in.line_dem : nullptr,
                                        .frame = &*in.grid,
                                        .drains_lakes = !may_end};
-    network::Imported imported = stage_log.stage("adopt", [&] { return network::import_lines(in.lines, params, run); });
+    network::Imported imported =
+        stage_log.stage(recipe::stage::adopt.name, [&] { return network::import_lines(in.lines, params, run); });
     SourceRivers rivers;
     rivers.grid = *in.grid;
     std::vector<Finding> const left = left_out(in.lines);

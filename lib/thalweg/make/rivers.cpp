@@ -186,13 +186,14 @@ RaisedRivers laid_on_raster(recipe::Recipe const& recipe, Raster<float> const& d
 
 RaisedRivers raise_rivers(recipe::Recipe const& recipe, Raster<float> const& dem, Planform const& planform,
                           StageLog& stage_log, Run const& run) {
-    if (heights_follow_raster(recipe)) {
-        RaisedRivers laid = stage_log.stage("raise", [&] { return laid_on_raster(recipe, dem, planform, run); });
+    if (recipe::on_raster(recipe) && recipe.network->heights == recipe::Heights::automatic) {
+        RaisedRivers laid =
+            stage_log.stage(recipe::stage::raise.name, [&] { return laid_on_raster(recipe, dem, planform, run); });
         stage_log.say(fmt::format("{} cells of rivers cut, by up to {:.3g} m", laid.statistics.lowered_cells,
                                   laid.statistics.max_lowered_m));
         return laid;
     }
-    Elevated raised = stage_log.stage("raise", [&] { return elevated(recipe, planform, run); });
+    Elevated raised = stage_log.stage(recipe::stage::raise.name, [&] { return elevated(recipe, planform, run); });
     network::Rasterised cells = network::rasterise(raised.network, planform.grid);
     return {std::move(raised.network), std::move(cells.valley),
             HeightsStatistics{raised.repair, cells.lowered_cells, cells.max_lowered_m}, std::move(raised.areas)};

@@ -52,7 +52,7 @@ Surface undrained(SurfaceInput const& from, Run const& run) {
         recipe::check_detail(recipe, fine.width, fine.height);
         recipe::require_skeleton_on_grid(recipe, from.points, from.ridges, fine);
     }
-    RaisedRivers const raised = has_rivers && !heights_follow_terrain(recipe)
+    RaisedRivers const raised = recipe::stage::raise.runs(recipe)
                                     ? raise_rivers(recipe, from.raster, from.planform, stage_log, run)
                                     : RaisedRivers{};
     Grid const grid = has_rivers ? fine : recipe::coarse_grid(fine, recipe::levels_of(recipe));
@@ -85,7 +85,7 @@ Surface drawn(recipe::Plan const& plan, Planform const& planform, Run const& run
                             .raster = plan.raster,
                             .like = plan.like,
                             .gaps = plan.land,
-                            .has_coastlines = plan.recipe.network && has_coastlines(*plan.recipe.network, plan.lines)};
+                            .has_coastlines = recipe::stage::sea.runs(plan.recipe, plan.lines)};
     return kept_or_made(
         run, "surface", [&] { return recipe::cache_key(from.recipe); }, [&] { return undrained(from, run); },
         [](Surface const& made) {
@@ -131,7 +131,7 @@ Surface with_patches(Surface surface, recipe::Recipe const& recipe, StageLog& st
     Valley& valley = surface.bed.valley;
     for (recipe::PatchRecipe const& patch : recipe.patches) {
         bool const keeps = patch.rivers == recipe::PatchRivers::keep && recipe.network.has_value();
-        BlendedDem made = stage_log.stage("blend", [&] {
+        BlendedDem made = stage_log.stage(recipe::stage::blend.name, [&] {
             return blend_into(ground.dem, keeps ? river_mask(valley) : Mask{}, params_of(recipe, patch), run);
         });
         stage_log.find(made.findings);
@@ -157,7 +157,7 @@ struct Conditioned {
 /// Conditions a surface. Water leaves the land in sinks: meanwhile they are holes in it.
 Conditioned conditioned(recipe::Recipe const& recipe, Raster<float> dem, Valley valley, StreamNetwork const& network,
                         StageLog& stage_log, Run const& run) {
-    if (!conditions_dem(recipe)) {
+    if (!recipe::stage::carve.runs(recipe)) {
         return {std::move(dem)};
     }
     constexpr float hole = std::numeric_limits<float>::quiet_NaN();
@@ -170,8 +170,9 @@ Conditioned conditioned(recipe::Recipe const& recipe, Raster<float> dem, Valley 
         heights.push_back(std::exchange(dem[sink], hole));
         valley.z[sink] = hole;
     }
-    flow::ConditionedDem result = stage_log.stage(
-        "carve", [&] { return flow::condition(std::move(dem), valley, {*recipe.surface->drain}, run); });
+    flow::ConditionedDem result = stage_log.stage(recipe::stage::carve.name, [&] {
+        return flow::condition(std::move(dem), valley, {*recipe.surface->drain}, run);
+    });
     Grid const grid = result.dem.grid();
     for (std::size_t i = 0; i < sinks.size(); ++i) {
         float lowest = std::numeric_limits<float>::infinity();
@@ -189,7 +190,8 @@ Conditioned conditioned(recipe::Recipe const& recipe, Raster<float> dem, Valley 
 flow::FlowField drainage_of(recipe::Recipe const& recipe, Raster<float> const& dem, StreamNetwork const& network,
                             StageLog& stage_log, Run const& run) {
     run.at(0.0, fmt::format("drain {} cells", dem.cells()).c_str());
-    return stage_log.stage("drain", [&] { return flow::route(dem, sinks_of(recipe, dem, network), run); });
+    return stage_log.stage(recipe::stage::drain.name,
+                           [&] { return flow::route(dem, sinks_of(recipe, dem, network), run); });
 }
 
 /// Rivers in their cells.
@@ -202,7 +204,7 @@ struct RiversInBed {
 /// dem, drainage: the surface as it drains
 RiversInBed with_side_valleys(RiversInBed made, recipe::NetworkRecipe const& wanted, Raster<float> const& dem,
                               flow::FlowField const& drainage, StageLog& stage_log, Run const& run) {
-    network::SideValleys found = stage_log.stage("valleys", [&] {
+    network::SideValleys found = stage_log.stage(recipe::stage::valleys.name, [&] {
         return network::side_valleys(made.rivers.network, made.bed.channels, dem, drainage, {wanted.support_cells},
                                      run);
     });
@@ -249,7 +251,7 @@ Terrain terrain_with_surface(recipe::Plan const& plan, Planform const& planform,
     show(drained.dem, true, run);
     flow::FlowField drainage = drainage_of(recipe, drained.dem, network, stage_log, run);
     RiversInBed made{std::move(surface.rivers), std::move(surface.bed)};
-    if (adds_side_valleys(recipe)) {
+    if (recipe::stage::valleys.runs(recipe)) {
         made = with_side_valleys(std::move(made), *recipe.network, drained.dem, drainage, stage_log, run);
     }
     flow::ContributingAreas areas =

@@ -37,57 +37,6 @@ bool grown_for_land(Recipe const& recipe) {
     return recipe.network->source != Source::lines && in_equilibrium(recipe);
 }
 
-} // namespace
-
-bool has_coastlines(NetworkRecipe const& rivers, RiverLines const& lines) {
-    return rivers.source == Source::lines && rivers.lines.coastlines == Coastlines::sea &&
-           std::ranges::any_of(lines.secondary, [](SecondaryLine const& line) { return line.cause == LeftOut::coast; });
-}
-
-bool has_meanders(Recipe const& recipe) {
-    return *recipe.network->meander != 0.0 || grown_for_land(recipe);
-}
-
-bool heights_follow_terrain(Recipe const& recipe) {
-    return in_equilibrium(recipe) && recipe.network->heights == Heights::graded;
-}
-
-bool heights_follow_raster(Recipe const& recipe) {
-    return on_raster(recipe) && recipe.network && recipe.network->heights == Heights::automatic;
-}
-
-bool scatters_points(Recipe const& recipe) {
-    return recipe.skeleton && recipe.skeleton->scatter > 0;
-}
-
-bool has_ridges(Recipe const& recipe) {
-    return recipe.skeleton && recipe.skeleton->ridges != Ridges::none;
-}
-
-bool needs_tin(Recipe const& recipe) {
-    SurfaceRecipe const& wanted = *recipe.surface;
-    bool const over_tin = wanted.method == Method::tin || (wanted.method == Method::dilate && wanted.base == Base::tin);
-    return over_tin || (recipe.skeleton && recipe.skeleton->tin);
-}
-
-bool conditions_dem(Recipe const& recipe) {
-    return recipe.surface && *recipe.surface->drain != flow::Conditioning::none;
-}
-
-bool finds_catchments(Recipe const& recipe) {
-    return recipe.network && recipe.output.catchments && recipe.output.has(OutputFiles::catchments);
-}
-
-bool measures_areas(Recipe const& recipe) {
-    return recipe.output.accumulation && recipe.output.has(OutputFiles::areas);
-}
-
-bool adds_side_valleys(Recipe const& recipe) {
-    return recipe.network && recipe.network->fill_space;
-}
-
-namespace {
-
 /// The land on its grid: the region's polygons, an island, or all of it.
 Mask land_of(Recipe const& recipe, Run const& run) {
     ForestRecipe const& wanted = recipe.network->forest;
@@ -213,7 +162,7 @@ Recipe on_crs_of_region(Recipe recipe) {
 // The land of a recipe with its CRS (the region's polygons, an island, or all of the grid) and its outlets.
 ForestLand forest_land(Recipe const& recipe, Raster<float> const& raster, StageLog& stage_log, Run const& run) {
     ForestLand found;
-    found.land = stage_log.stage("shape", [&] { return land_of(recipe, run); });
+    found.land = stage_log.stage(stage::shape.name, [&] { return land_of(recipe, run); });
     for (std::int64_t i = 0; i < raster.cells(); ++i) {
         found.land[i] = std::isnan(raster[i]) ? 0 : found.land[i];
     }
@@ -251,7 +200,7 @@ Plan plan_tree(Recipe recipe, StageLog& stage_log, Run const& run) {
     TokunagaRecipe const& wanted = recipe.network->tokunaga;
     recipe.grid.crs = crs_of_grid(recipe.grid.crs.empty() ? "EPSG:32631" : recipe.grid.crs);
     Plan plan;
-    plan.tree = stage_log.stage("grow", [&] { return growth::grow_tokunaga(tree_of(recipe), run); });
+    plan.tree = stage_log.stage(stage::grow.name, [&] { return growth::grow_tokunaga(tree_of(recipe), run); });
     stage_log.say(
         fmt::format("lambda {}  order {}  {} links", wanted.generator, wanted.order, plan.tree->links.size()));
     if (!wanted.region.empty()) {
@@ -268,7 +217,7 @@ Plan plan_tree(Recipe recipe, StageLog& stage_log, Run const& run) {
 Plan plan_strokes(Recipe recipe, StageLog& stage_log, Run const& run) {
     TokunagaRecipe const& wanted = recipe.network->tokunaga;
     std::string const crs = recipe.grid.crs.empty() ? "" : crs_of_grid(recipe.grid.crs);
-    RiverLines strokes = stage_log.stage("read", [&] {
+    RiverLines strokes = stage_log.stage(stage::read.name, [&] {
         return io::read_rivers({.path = file_in(recipe, wanted.strokes), .layer = wanted.layer, .crs = crs}, run);
     });
     if (!strokes.findings.empty()) { // a user who draws strokes needs each of them
@@ -351,7 +300,7 @@ Plan with_heights_of_lines(Plan plan, RiverLines const& lines) {
 
 Plan plan_lines(Recipe recipe, Raster<float> const& raster, StageLog& stage_log, Run const& run) {
     Recipe const of_lines = recipe_for_lines(recipe);
-    RiverLines lines = stage_log.stage("read", [&] {
+    RiverLines lines = stage_log.stage(stage::read.name, [&] {
         return kept_or_made(
             run, "lines", [&] { return cache_key(of_lines); }, [&] { return read_lines(of_lines, run); },
             [](RiverLines const& read) {
@@ -506,7 +455,7 @@ Plan with_surface_settled(Plan plan) {
     SurfaceRecipe& wanted = *plan.recipe.surface;
     EquilibriumRecipe& land = wanted.equilibrium;
     bool const has_rivers = plan.recipe.network.has_value();
-    if (has_rivers && heights_follow_terrain(plan.recipe) && !land.mean_slope_deg && land.like.empty() &&
+    if (has_rivers && !stage::raise.runs(plan.recipe) && !land.mean_slope_deg && land.like.empty() &&
         !(wanted.dilate.relief_m > 0.0)) {
         land.mean_slope_deg = plan.recipe.network->source == Source::lines
                                   ? usual_slope_deg(plan.recipe.grid.cell_m)
@@ -544,7 +493,7 @@ OnRaster with_raster(Recipe const& recipe, StageLog& stage_log, Run const& run) 
     }
     require_files(recipe);
     Recipe const of_raster = recipe_for_raster(recipe);
-    OnRaster on = stage_log.stage("raster", [&] {
+    OnRaster on = stage_log.stage(stage::raster.name, [&] {
         return kept_or_made(
             run, "raster", [&] { return cache_key(of_raster); }, [&] { return settle_on_raster(of_raster, run); },
             [](OnRaster const& made) { return made.dem.cells() * static_cast<std::int64_t>(sizeof(float)); });

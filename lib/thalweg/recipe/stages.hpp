@@ -3,6 +3,7 @@
 #pragma once
 /// \internal For the modules above this one.
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,40 +19,32 @@
 
 namespace thalweg::recipe {
 
-// Predicates for the stages of a plan, common to make, which runs them, and the forecast, which lists them.
+/// A step of make. This is the one place that says when it runs and what it costs: make asks it, and forecasts,
+/// progress and timings have its name.
+struct Stage {
+    char const* name;
+    double seconds_a_million; ///< of cells, on one core of 2020; estimated
+    /// lines: of the rivers' file
+    bool (*runs_with)(Recipe const& recipe, RiverLines const& lines);
 
-/// Whether coastlines of the rivers' file bound the land.
-bool has_coastlines(NetworkRecipe const& rivers, RiverLines const& lines);
+    /// \param recipe with its defaults
+    /// \param lines of the rivers' file, which tell whether there are coastlines
+    bool runs(Recipe const& recipe, RiverLines const& lines = {}) const { return runs_with(recipe, lines); }
+};
 
-/// Whether rivers go through the meander stage.
-bool has_meanders(Recipe const& recipe);
+/// The stages. timings_s of report.json has these names.
+namespace stage {
+extern Stage const raster, read, shape, grow, thin, trace, embed, adopt, sea, prune, meander, raise;
+extern Stage const channels, fill_in_equilibrium, scatter, ridge, tin, fill_dilated, fill, land, detail, project;
+extern Stage const blend; ///< once for each patch
+extern Stage const carve, drain, valleys, measure, catchments, certify, ridges, areas, laws, relief, check, compare;
+} // namespace stage
 
-/// Whether rivers take their heights from the terrain.
-bool heights_follow_terrain(Recipe const& recipe);
+/// All of them, in the order in which they run.
+std::span<Stage const* const> all_stages();
 
-/// Whether rivers take their heights from a DEM that is the terrain.
-bool heights_follow_raster(Recipe const& recipe);
-
-/// Whether random points lie between the rivers, or in the terrain.
-bool scatters_points(Recipe const& recipe);
-
-/// Whether ridges are drawn between the rivers.
-bool has_ridges(Recipe const& recipe);
-
-/// Whether rivers, ridges and points are triangulated.
-bool needs_tin(Recipe const& recipe);
-
-/// Whether the terrain is conditioned hydrologically.
-bool conditions_dem(Recipe const& recipe);
-
-/// Whether the catchments of the arcs are found.
-bool finds_catchments(Recipe const& recipe);
-
-/// Whether contributing areas are measured by cell.
-bool measures_areas(Recipe const& recipe);
-
-/// Whether the terrain's own side valleys become arcs.
-bool adds_side_valleys(Recipe const& recipe);
+/// The stages that run for a plan, in order; blend once for each patch.
+std::vector<Stage const*> stages_of(Plan const& plan);
 
 // Networks that branch by Tokunaga's law.
 

@@ -22,6 +22,7 @@
 #include <thalweg/network/vectorise/rasterise.hpp>
 #include <thalweg/recipe/read_inputs.hpp>
 #include <thalweg/recipe/recipe_files.hpp>
+#include <thalweg/recipe/stages.hpp>
 #include <thalweg/skeleton/ridges.hpp>
 #include <thalweg/surface/equilibrium/match_texture.hpp>
 #include <thalweg/surface/uplift/uplift_pattern.hpp>
@@ -320,8 +321,9 @@ Solved solved_for(GroundInput const& in, Balance const& balance, Channels const&
                         .key = "surface.edge"});
     }
     auto const solve = [&](surface::EquilibriumParams const& with) { return balance.solve(channels, fields, with); };
-    Solved solved =
-        stage_log.stage("fill", [&] { return in.like ? with_texture(*in.like, params, solve, run) : solve(params); });
+    Solved solved = stage_log.stage(recipe::stage::fill_in_equilibrium.name, [&] {
+        return in.like ? with_texture(*in.like, params, solve, run) : solve(params);
+    });
     stage_log.find(solved.findings);
     return solved;
 }
@@ -410,8 +412,8 @@ Surface balanced(GroundInput const& in, Balance const& balance, Run const& run) 
     recipe::NetworkRecipe const& wanted = *in.recipe.network;
     network::ChannelsParams drawing;
     drawing.look_cells = balance.is_rebuilt ? 0 : drawing.look_cells; // heights decide where water goes
-    network::ChannelsOfArcs rivers =
-        stage_log.stage("channels", [&] { return network::channels(in.planform.network, in.grid, drawing, run); });
+    network::ChannelsOfArcs rivers = stage_log.stage(
+        recipe::stage::channels.name, [&] { return network::channels(in.planform.network, in.grid, drawing, run); });
     stage_log.find(rivers.notes);
     if (wanted.heights != recipe::Heights::graded) {
         rivers.channels.z = asked_heights(in.rivers.network, rivers.channels, wanted.heights);

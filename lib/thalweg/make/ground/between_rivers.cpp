@@ -40,8 +40,8 @@ skeleton::Scattered scattered(recipe::Recipe const& recipe, Valley const& valley
     params.gain = wanted.ridge_gain;
     params.farthest_m = wanted.ridge_farthest_m;
     params.law = wanted.law;
-    skeleton::Scattered points =
-        stage_log.stage("scatter", [&] { return skeleton::scatter_between(valley, inside, params, run); });
+    skeleton::Scattered points = stage_log.stage(
+        recipe::stage::scatter.name, [&] { return skeleton::scatter_between(valley, inside, params, run); });
     stage_log.say(fmt::format("{} points", points.points.points.size()));
     return points;
 }
@@ -69,7 +69,7 @@ Mask inside_of(recipe::Recipe const& recipe, Mask const& land, Valley const& val
 } // namespace
 
 RidgeLines ridges_between(GroundInput const& in, Rivers const& rivers, StageLog& stage_log, Run const& run) {
-    if (!has_ridges(in.recipe)) {
+    if (!recipe::stage::ridge.runs(in.recipe)) {
         return {};
     }
     recipe::SkeletonRecipe const& wanted = *in.recipe.skeleton;
@@ -78,7 +78,7 @@ RidgeLines ridges_between(GroundInput const& in, Rivers const& rivers, StageLog&
                                                              : skeleton::RidgesParams::Method::segments;
     params.gain = wanted.ridge_gain;
     params.farthest_m = wanted.ridge_farthest_m;
-    RidgeLines ridges = stage_log.stage("ridge", [&] {
+    RidgeLines ridges = stage_log.stage(recipe::stage::ridge.name, [&] {
         return skeleton::ridges(rivers.network, network::streams(rivers.network.planform, rivers.orders), in.grid,
                                 params, run);
     });
@@ -88,7 +88,7 @@ RidgeLines ridges_between(GroundInput const& in, Rivers const& rivers, StageLog&
 
 Tin triangulated(recipe::Recipe const& recipe, ElevatedNetwork const& network, RidgeLines const& ridges,
                  FeaturePoints const& points, StageLog& stage_log, Run const& run) {
-    if (!needs_tin(recipe)) {
+    if (!recipe::stage::tin.runs(recipe)) {
         return {};
     }
     std::vector<std::vector<Vec3>> breaklines;
@@ -98,7 +98,8 @@ Tin triangulated(recipe::Recipe const& recipe, ElevatedNetwork const& network, R
     for (RidgeLine const& ridge : ridges.lines) {
         breaklines.push_back(ridge.line);
     }
-    Tin tin = stage_log.stage("tin", [&] { return geometry::triangulate(points.points, breaklines, run).tin; });
+    Tin tin = stage_log.stage(recipe::stage::tin.name,
+                              [&] { return geometry::triangulate(points.points, breaklines, run).tin; });
     stage_log.say(fmt::format("{} triangles of {} vertices", tin.triangles.size(), tin.vertices.size()));
     return tin;
 }
@@ -155,7 +156,7 @@ Between between_rivers(GroundInput const& in, StageLog& stage_log, Run const& ru
     stage_log.find(in.rivers.findings);
     between.inside = inside_of(recipe, in.planform.land, between.valley, run);
     between.is_whole = recipe.surface->mask.empty() && in.planform.land.values().empty();
-    if (scatters_points(recipe)) {
+    if (recipe::stage::scatter.runs(recipe)) {
         skeleton::Scattered found = scattered(recipe, between.valley, between.inside, stage_log, run);
         between.checks.push_back(points_missing(found, *recipe.skeleton, stage_log));
         between.points = std::move(found.points);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/make/internal/between_rivers.hpp>
+#include <thalweg/recipe/stages.hpp>
 #include <thalweg/skeleton/draw_skeleton.hpp>
 #include <thalweg/skeleton/midpoint_inverse.hpp>
 #include <thalweg/surface/diffusion/diffusion.hpp>
@@ -31,7 +32,7 @@ Skeleton gathered_skeleton(recipe::Recipe const& recipe, Between const& between,
 Surface diffuse(GroundInput const& in, Run const& run) {
     StageLog stage_log(run);
     Between between = between_rivers(in, stage_log, run);
-    surface::Diffused made = stage_log.stage("fill", [&] {
+    surface::Diffused made = stage_log.stage(recipe::stage::fill.name, [&] {
         surface::DiffuseParams params = in.recipe.surface->diffuse;
         params.seed = in.recipe.seed;
         params.tolerance = in.recipe.surface->tolerance.value_or(params.tolerance);

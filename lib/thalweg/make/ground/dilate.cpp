@@ -10,6 +10,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/make/internal/between_rivers.hpp>
+#include <thalweg/recipe/stages.hpp>
 #include <thalweg/surface/diffusion/diffusion.hpp>
 #include <thalweg/surface/dilation/dilation.hpp>
 #include <thalweg/surface/equilibrium/features.hpp>
@@ -96,7 +97,7 @@ Surface dilate(GroundInput const& in, Run const& run) {
     StageLog stage_log(run);
     Between between = between_rivers(in, stage_log, run);
     recipe::SurfaceRecipe const& wanted = *in.recipe.surface;
-    surface::Dilated made = stage_log.stage("fill", [&] {
+    surface::Dilated made = stage_log.stage(recipe::stage::fill_dilated.name, [&] {
         surface::Dilated rising = dilated(wanted, between, run);
         rising.dem = through_points(std::move(rising.dem), between, run);
         return rising;

@@ -101,11 +101,12 @@ Surface points(GroundInput const& in, Run const& run) {
     StageLog stage_log(run);
     skeleton::Scattered const through = points_of(in.recipe, in.fine, in.points, run);
     Surface made;
-    if (scatters_points(in.recipe)) {
+    if (in.recipe.skeleton && in.recipe.skeleton->scatter > 0) {
         made.notes.checks.push_back(points_missing(through, *in.recipe.skeleton, stage_log));
     }
-    made.ground = stage_log.stage(
-        "land", [&] { return land_of_points(in.recipe, in.fine.cell_m, through.points, in.grid, stage_log, run); });
+    made.ground = stage_log.stage(recipe::stage::land.name, [&] {
+        return land_of_points(in.recipe, in.fine.cell_m, through.points, in.grid, stage_log, run);
+    });
     stage_log.say(fmt::format("{} points", through.points.points.size()));
     made.notes.findings = stage_log.take_findings();
     made.notes.timings_s = stage_log.take();

@@ -7,6 +7,7 @@
 
 #include <thalweg/make/internal/between_rivers.hpp>
 #include <thalweg/recipe/check_recipe.hpp>
+#include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::make {
 namespace {
@@ -26,8 +27,8 @@ Raster<float> every_cell(Raster<float> const& raster, Grid const& coarse, int le
 Surface around_rivers(GroundInput const& in, Run const& run) {
     StageLog stage_log(run);
     Between between = between_rivers(in, stage_log, run);
-    Raster<float> dem =
-        stage_log.stage("fill", [&] { return only_inside(with_valley(in.raster, between.valley), between.inside); });
+    Raster<float> dem = stage_log.stage(
+        recipe::stage::fill.name, [&] { return only_inside(with_valley(in.raster, between.valley), between.inside); });
     stage_log.say(fmt::format("{}x{}, of the DEM", in.grid.width, in.grid.height));
     return surface_between(in, std::move(between), std::move(dem), OfDem{}, {}, stage_log);
 }
@@ -39,8 +40,8 @@ Surface raster(GroundInput const& in, Run const& run) {
         return around_rivers(in, run);
     }
     StageLog stage_log(run);
-    Raster<float> dem =
-        stage_log.stage("land", [&] { return every_cell(in.raster, in.grid, recipe::levels_of(in.recipe)); });
+    Raster<float> dem = stage_log.stage(recipe::stage::land.name,
+                                        [&] { return every_cell(in.raster, in.grid, recipe::levels_of(in.recipe)); });
     stage_log.say(fmt::format("{}x{} cells of the DEM", in.grid.width, in.grid.height));
     return {.ground = {.dem = std::move(dem), .how = OfDem{}},
             .notes = {{}, stage_log.take_findings(), stage_log.take()}};

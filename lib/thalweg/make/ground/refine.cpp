@@ -21,6 +21,7 @@
 #include <thalweg/recipe/check_recipe.hpp>
 #include <thalweg/recipe/read_inputs.hpp>
 #include <thalweg/recipe/recipe_files.hpp>
+#include <thalweg/recipe/stages.hpp>
 #include <thalweg/surface/dilation/dilation.hpp>
 
 namespace thalweg::make {
@@ -228,8 +229,9 @@ Raster<float> left_out(Raster<float> land, recipe::Recipe const& recipe, Raster<
 
 /// Matches a surface to the statistics that the recipe asks for.
 Surface matched(Surface surface, GroundInput const& in, StageLog& stage_log, Run const& run) {
-    MatchedStatistics brought = stage_log.stage(
-        "project", [&] { return matched_to_statistics(in.recipe, std::move(surface.ground.dem), in.points, run); });
+    MatchedStatistics brought = stage_log.stage(recipe::stage::project.name, [&] {
+        return matched_to_statistics(in.recipe, std::move(surface.ground.dem), in.points, run);
+    });
     stage_log.say(fmt::format("{} statistics within {:.2g} %, {} steps{}", brought.projection.residuals.size(),
                               100.0 * brought.projection.largest_error, brought.projection.iterations,
                               brought.fine_forms_cells > 0.0 ? ", fine forms of a Gaussian surface" : ""));
@@ -258,8 +260,9 @@ Surface refined(Surface surface, GroundInput const& in, Run const& run) {
         dem = std::move(made.dem);
         surface.ground.detail = made.statistics;
     } else if (levels > 0) {
-        Detailed made = stage_log.stage(
-            "detail", [&] { return displaced(in.recipe.detail->midpoint, in.recipe.seed, dem, in.fine, run); });
+        Detailed made = stage_log.stage(recipe::stage::detail.name, [&] {
+            return displaced(in.recipe.detail->midpoint, in.recipe.seed, dem, in.fine, run);
+        });
         dem = std::move(made.dem);
         surface.ground.detail = made.statistics;
         stage_log.say(fmt::format("midpoint displacement, {} levels", levels));

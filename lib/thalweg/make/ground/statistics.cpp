@@ -10,6 +10,7 @@
 #include <thalweg/make/internal/ground.hpp>
 #include <thalweg/make/internal/numbers.hpp>
 #include <thalweg/recipe/check_recipe.hpp>
+#include <thalweg/recipe/stages.hpp>
 #include <thalweg/skeleton/random_fields.hpp>
 #include <thalweg/solver/statistics/field_statistics.hpp>
 
@@ -80,7 +81,7 @@ Raster<float> random_land(recipe::Recipe const& recipe, recipe::Prior prior, Gri
 
 Surface statistics(GroundInput const& in, Run const& run) {
     StageLog stage_log(run);
-    Raster<float> dem = stage_log.stage("land", [&] {
+    Raster<float> dem = stage_log.stage(recipe::stage::land.name, [&] {
         return random_land(in.recipe, in.recipe.statistics->skeleton, in.grid, recipe::levels_of(in.recipe), run);
     });
     stage_log.say(fmt::format("random, {}x{} cells of {} m", in.grid.width, in.grid.height, in.grid.cell_m));
