@@ -90,6 +90,9 @@ class Projects(Case):
             self.assertTrue(layer.crs().isValid() and layer.crs() == project.crs(), layer.name())
             source = pathlib.Path(layer.source().split("|")[0])
             self.assertEqual(source.parent.resolve(), folder.resolve(), f"{layer.name()} lies elsewhere")
+            if isinstance(layer, QgsMeshLayer):
+                ramp = layer.rendererSettings().scalarSettings(0).colorRampShader().colorRampItemList()
+                self.assertEqual(ramp[0].color.name(), "#7ea688", "our tints, and not those of QGIS")
         self.assertEqual(complaints, [])
         return project
 
@@ -195,12 +198,16 @@ class Layers(Case):
         self.assertEqual(rules.keys(), {"Source", "Confluence", "Outlet", "Sink", "Pseudo-node"})
         dem = QgsRasterLayer(str(folder / "dem.tif"), "dem")
         self.assertEqual(dem.renderer().type(), "singlebandpseudocolor")
-        mesh = QgsMeshLayer(str(folder / "tin.2dm"), "tin", "mdal")
-        self.assertTrue(load_style(mesh))  # later QGIS opens a mesh without the .qml beside it
-        shader = mesh.rendererSettings().scalarSettings(0).colorRampShader()
         heights = sorted(float(line.split()[4]) for line in (folder / "tin.2dm").read_text().splitlines() if line.startswith("ND"))
-        self.assertEqual((shader.minimumValue(), shader.maximumValue()), (heights[0], heights[-1]))
-        self.assertEqual(len(shader.colorRampItemList()), 17)
+        sources = [str(folder / "tin.2dm")]
+        if Qgis.QGIS_VERSION_INT >= 34000:  # as its browser names a mesh, beside whose path it looks for no .qml
+            sources.append(f'2DM:"{folder / "tin.2dm"}"')
+        for source in sources:
+            mesh = QgsMeshLayer(source, "tin", "mdal")
+            self.assertTrue(load_style(mesh))
+            shader = mesh.rendererSettings().scalarSettings(0).colorRampShader()
+            self.assertEqual((shader.minimumValue(), shader.maximumValue()), (heights[0], heights[-1]))
+            self.assertEqual(shader.colorRampItemList()[0].color.name(), "#7ea688", "our tints, and not those of QGIS")
 
     def test_other_commands_style_too(self):
         check, schema = self.folder / "findings.gpkg", self.folder / "nhd.gpkg"

@@ -416,7 +416,8 @@ QgisStyle mesh_style(Tints const& tints, std::string const& unit) {
         "<mesh-settings-native enabled=\"1\" color=\"90,80,70,80\" line-width=\"0.1\" line-width-unit=\"MM\"/>"
         "<mesh-settings-edge enabled=\"0\" color=\"0,0,0,255\" line-width=\"0.1\" line-width-unit=\"MM\"/>"
         "<mesh-settings-triangular enabled=\"0\" color=\"0,0,0,255\" line-width=\"0.1\" line-width-unit=\"MM\"/>"
-        "</mesh-renderer-settings><mesh-simplify-settings enabled=\"0\" mesh-resolution=\"5\" reduction-factor=\"10\"/>"
+        "</mesh-renderer-settings><name-to-global-index name=\"Bed Elevation\" "
+        "global-index=\"0\"/><mesh-simplify-settings enabled=\"0\" mesh-resolution=\"5\" reduction-factor=\"10\"/>"
         "<blendMode>0</blendMode><layerOpacity>1</layerOpacity>",
         tints.front().first, tints.back().first, shader(tints, unit, legend(unit)));
 }

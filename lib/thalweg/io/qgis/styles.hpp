@@ -86,7 +86,7 @@ QgisStyle mask_style(std::string const& label, std::string const& colour);
 /// \throws BadInput when they are not
 QgisStyle area_style(double smallest, double greatest);
 
-/// A TIN as a mesh: hypsometric tints, and thin edges.
+/// A TIN as a mesh of a 2DM file, whose heights QGIS calls "Bed Elevation": hypsometric tints, and thin edges.
 /// \param tints [unit] as for tint_style
 /// \param unit of the heights in the legend
 /// \return a style for a mesh with heights in its first dataset
