@@ -27,28 +27,15 @@
 namespace thalweg::make {
 namespace {
 
-/// What a surface is made from. It refers to values of a plan and its rivers for the time of a call.
-struct SurfaceInput {
-    recipe::Recipe recipe; ///< recipe_for_surface()
-    Planform const& planform;
-    std::optional<Grid> const& grid; ///< this and what follows as GroundInput
-    FeaturePoints const& points;
-    RiverLines const& ridges;
-    Raster<float> const& raster;
-    std::optional<recipe::LikeDem> const& like;
-    Mask const& gaps;
-    bool has_coastlines;
-};
-
 /// A surface before patches and drainage.
-Surface undrained(SurfaceInput const& from, Run const& run) {
+Surface undrained(SurfaceInput const& from, std::optional<Grid> const& planned, Run const& run) {
     recipe::Recipe const& recipe = from.recipe;
     bool const has_rivers = recipe.network.has_value();
-    Grid const& fine = has_rivers ? from.planform.grid : *from.grid;
+    Grid const& fine = has_rivers ? from.planform.grid : *planned;
     StageLog stage_log(run);
     if (!has_rivers) {
         stage_log.find(require_targets(recipe, fine));
-    } else if (!from.grid) { // else it was checked before the rivers were grown
+    } else if (!planned) { // else it was checked before the rivers were grown
         recipe::check_detail(recipe, fine.width, fine.height);
         recipe::require_skeleton_on_grid(recipe, from.points, from.ridges, fine);
     }
@@ -56,17 +43,7 @@ Surface undrained(SurfaceInput const& from, Run const& run) {
                                     ? raise_rivers(recipe, from.raster, from.planform, stage_log, run)
                                     : RaisedRivers{};
     Grid const grid = has_rivers ? fine : recipe::coarse_grid(fine, recipe::levels_of(recipe));
-    GroundInput const in{.recipe = recipe,
-                         .grid = grid,
-                         .fine = fine,
-                         .planform = from.planform,
-                         .rivers = raised,
-                         .points = from.points,
-                         .ridges = from.ridges,
-                         .raster = from.raster,
-                         .like = from.like,
-                         .gaps = from.gaps,
-                         .has_coastlines = from.has_coastlines};
+    GroundInput const in{from, grid, fine, raised};
     Surface surface = refined(ground_of(recipe)(in, run), in, run);
     stage_log.find(surface.notes.findings);
     stage_log.add(surface.notes.timings_s);
@@ -79,7 +56,6 @@ Surface undrained(SurfaceInput const& from, Run const& run) {
 Surface drawn(recipe::Plan const& plan, Planform const& planform, Run const& run) {
     SurfaceInput const from{.recipe = recipe::recipe_for_surface(plan.recipe),
                             .planform = planform,
-                            .grid = plan.grid,
                             .points = plan.points,
                             .ridges = plan.ridge_lines,
                             .raster = plan.raster,
@@ -87,7 +63,7 @@ Surface drawn(recipe::Plan const& plan, Planform const& planform, Run const& run
                             .gaps = plan.land,
                             .has_coastlines = recipe::stage::sea.runs(plan.recipe, plan.lines)};
     return kept_or_made(
-        run, "surface", [&] { return recipe::cache_key(from.recipe); }, [&] { return undrained(from, run); },
+        run, "surface", [&] { return recipe::cache_key(from.recipe); }, [&] { return undrained(from, plan.grid, run); },
         [](Surface const& made) {
             constexpr std::int64_t of_cell = 16; // heights, valley, levels
             return of_cell * made.ground.dem.cells();

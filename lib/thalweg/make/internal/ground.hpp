@@ -18,19 +18,23 @@
 
 namespace thalweg::make {
 
-/// What a surface is made from. It refers to values for the time of a call.
-struct GroundInput {
-    recipe::Recipe const& recipe;
-    Grid const& grid;           ///< of the surface; without rivers of coarser cells, where detail is added between them
-    Grid const& fine;           ///< of the terrain
-    Planform const& planform;   ///< without arcs where there are no rivers
-    RaisedRivers const& rivers; ///< without arcs where their heights follow from the surface
+/// What a surface is made from: what a plan has for it, and its rivers. It refers to values for the time of a call.
+struct SurfaceInput {
+    recipe::Recipe recipe;    ///< with the keys that it reads: recipe_for_surface()
+    Planform const& planform; ///< without arcs where there are no rivers
     FeaturePoints const& points;
     RiverLines const& ridges;    ///< given ones
     Raster<float> const& raster; ///< of surface.source, on the recipe's grid; without cells: none
     std::optional<recipe::LikeDem> const& like;
     Mask const& gaps; ///< 0: a gap of the DEM that rebuilt terrain is compared with; without cells: there is none
     bool has_coastlines = false; ///< those of the rivers' file bound the land
+};
+
+/// The same on its grid, with the rivers' heights.
+struct GroundInput : SurfaceInput {
+    Grid const& grid;           ///< of the surface; without rivers of coarser cells, where detail is added between them
+    Grid const& fine;           ///< of the terrain
+    RaisedRivers const& rivers; ///< without arcs where their heights follow from the surface
 };
 
 /// A surface, the rivers with their heights in it, and what was found and checked.
