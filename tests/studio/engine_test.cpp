@@ -205,7 +205,8 @@ double correlation(Raster<float> const& coarse, Raster<float> const& fine) {
     return (n * sxy - sx * sy) / std::sqrt((n * sxx - sx * sx) * (n * syy - sy * sy));
 }
 
-/// Files that recipes name: rivers with heights, of which one ends before another begins, points, and a DEM with a gap.
+/// Files that recipes name: rivers with heights, of which one ends before another begins and one has a single height,
+/// points, and a DEM with a gap.
 class Files {
 public:
     Files() {
@@ -218,7 +219,9 @@ public:
                     R"({"type": "Feature", "properties": {"name": "b"}, "geometry": {"type": "LineString", )"
                     R"("coordinates": [[500560, 4999400, 90], [500800, 4999300, 50], [500990, 4999010, 10]]}}, )"
                     R"({"type": "Feature", "properties": {"name": "c"}, "geometry": {"type": "LineString", )"
-                    R"("coordinates": [[500900, 4999900, 150], [500850, 4999600, 80], [500800, 4999300, 50]]}}]})");
+                    R"("coordinates": [[500900, 4999900, 150], [500850, 4999600, 80], [500800, 4999300, 50]]}}, )"
+                    R"({"type": "Feature", "properties": {"name": "d"}, "geometry": {"type": "LineString", )"
+                    R"("coordinates": [[500300, 4999950], [500250, 4999600]]}}]})");
         test::write(folder_.path() / "inputs/points.csv", "x,y,z\n500300,4999200,300\n500600,4999800,260\n");
         Raster<float> dem(Grid{50, 50, 20.0, 500000.0, 5000000.0, "EPSG:32631"});
         Raster<float> hill(Grid{12, 12, 20.0, 500000.0, 5000000.0, "EPSG:32632"});
@@ -302,6 +305,17 @@ TEST(Engine, MakesWhatMakeMakesOfFiles) {
     Files const files;
     for (std::string const& recipe : recipes_of_files()) {
         expect_same_after_edits(files.document(recipe), 3, 2);
+    }
+}
+
+TEST(Engine, GivesMissingHeightsByTheSlopeOfTheEdit) {
+    Files const files;
+    Watched watched;
+    Document const first = files.document(recipes_of_files()[1]);
+    for (Document const& document : {first, edited(first, "network.slope", "0.02")}) {
+        auto const made = watched.make(document).measured;
+        ASSERT_NE(made, nullptr);
+        EXPECT_TRUE(are_same(*made, make::make(document.recipe)));
     }
 }
 

@@ -312,7 +312,7 @@ Planform make_planform(recipe::Plan const& plan, Run const& run) {
             return copies * bytes_of(kept.planform.network) + kept.planform.land.cells();
         });
     Planform planform = std::move(made.planform);
-    std::vector<Finding> const conversions = recipe::conversions(plan.recipe, planform.grid); // of all its files
+    std::vector<Finding> const conversions = recipe::conversions(plan.recipe, planform.grid, run); // of all its files
     planform.findings.insert(planform.findings.begin() + static_cast<std::ptrdiff_t>(made.of_source),
                              conversions.begin(), conversions.end());
     run.report(planform.findings);

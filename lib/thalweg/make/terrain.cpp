@@ -212,7 +212,7 @@ Terrain terrain_with_surface(recipe::Plan const& plan, Planform const& planform,
     bool const has_rivers = recipe.network.has_value();
     StageLog stage_log(run);
     if (!has_rivers) { // else they are among the rivers' findings
-        stage_log.find(recipe::conversions(recipe, *plan.grid));
+        stage_log.find(recipe::conversions(recipe, *plan.grid, run));
     }
     Surface surface = drawn(plan, planform, run);
     stage_log.add(surface.notes.timings_s);

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <thalweg/core/append.hpp>
+#include <thalweg/core/run/kept.hpp>
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/crs.hpp>
@@ -105,19 +107,32 @@ bool is_users(Recipe const& recipe, std::string const& path) {
 
 } // namespace
 
-std::vector<Finding> conversions(Recipe const& recipe, Grid const& grid) {
-    std::vector<Finding> notes;
-    for (NamedFile const& file : files_of(recipe)) {
-        bool const is_lines = file.key->help.path == "network.lines.path";
-        std::string const source_crs = is_lines ? recipe.network->lines.source_crs : "";
-        for (std::string const& words :
-             io::conversions_of(file_in(recipe, file.name), file.layer, grid.crs, source_crs)) {
-            notes.push_back({.kind = "converted", .text = words, .key = file.key->place(file.item)});
+std::vector<Finding> conversions(Recipe const& recipe, Grid const& grid, Run const& run) {
+    std::vector<NamedFile> const files = files_of(recipe);
+    std::string const lines_crs = recipe.network ? recipe.network->lines.source_crs : "";
+    auto const made_from = [&] {
+        std::string text = fmt::format("{}\n{} {} {} {} {} {}\n", lines_crs, grid.crs, grid.west, grid.north,
+                                       grid.cell_m, grid.width, grid.height);
+        for (NamedFile const& file : files) {
+            text += fmt::format("{} {} {}\n", file.key->place(file.item), file.name, file.layer);
         }
-    }
-    std::vector<Finding> const stretched = stretch_of(grid);
-    notes.insert(notes.end(), stretched.begin(), stretched.end());
-    return notes;
+        return text + state_of_files(recipe);
+    };
+    auto const look = [&] {
+        std::vector<Finding> notes;
+        for (NamedFile const& file : files) {
+            bool const is_lines = file.key->help.path == "network.lines.path";
+            for (std::string const& words : io::conversions_of(file_in(recipe, file.name), file.layer, grid.crs,
+                                                               is_lines ? lines_crs : std::string())) {
+                notes.push_back({.kind = "converted", .text = words, .key = file.key->place(file.item)});
+            }
+        }
+        append(notes, stretch_of(grid));
+        return notes;
+    };
+    constexpr std::int64_t of_note = 256;
+    return kept_or_made(run, "conversions", made_from, look,
+                        [](auto const& notes) { return of_note * static_cast<std::int64_t>(notes.size()); });
 }
 
 namespace {
@@ -168,13 +183,16 @@ std::vector<std::string> file_names(Recipe const& recipe) {
 
 namespace {
 
-/// Sizes and times of a file and of those beside it that have its name.
+/// Sizes and times of a file and of those beside it that have its name ("dem.tif.aux.xml"), or of all in a folder.
 std::string state_of(fs::path const& path) {
     std::error_code error;
     std::vector<std::string> parts;
-    for (fs::directory_entry const& one : fs::directory_iterator(path.parent_path(), error)) {
+    bool const is_folder = fs::is_directory(path, error);
+    std::string const beginning = path.stem().string() + ".";
+    for (fs::directory_entry const& one : fs::directory_iterator(is_folder ? path : path.parent_path(), error)) {
         std::error_code unknown;
-        if (one.path().stem() == path.stem() && one.is_regular_file(unknown)) {
+        bool const belongs = is_folder || one.path().filename().string().starts_with(beginning) || one.path() == path;
+        if (belongs && one.is_regular_file(unknown)) {
             parts.push_back(fmt::format("{} {} {}", one.path().string(), one.file_size(unknown),
                                         one.last_write_time(unknown).time_since_epoch().count()));
         }

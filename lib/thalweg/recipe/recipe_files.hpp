@@ -83,8 +83,8 @@ bool is_address(std::string const& name);
 Recipe with_absolute_files(Recipe recipe);
 
 /// Says what the files of a recipe are converted from, and how far the grid leaves its UTM zone.
-/// \return a note for each: "converted", "stretched".
+/// \return a note for each: "converted", "stretched"; kept by the files, whatever else the recipe says.
 /// \internal
-std::vector<Finding> conversions(Recipe const& recipe, Grid const& grid);
+std::vector<Finding> conversions(Recipe const& recipe, Grid const& grid, Run const& run = {});
 
 } // namespace thalweg::recipe

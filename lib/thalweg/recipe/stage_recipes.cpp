@@ -67,7 +67,11 @@ Recipe recipe_for_source(Recipe const& recipe) {
     NetworkRecipe const standard;
     rivers.prune_cells = standard.prune_cells;
     rivers.meander = standard.meander;
-    rivers.slope = standard.slope;
+    // Of lines missing heights follow from the slope, and what becomes of lakes from the ends inland.
+    if (rivers.source != Source::lines) {
+        rivers.slope = standard.slope;
+        rivers.inland = standard.inland;
+    }
     rivers.concavity = standard.concavity;
     rivers.heights_tolerance_m = standard.heights_tolerance_m;
     rivers.rosgen = standard.rosgen;

@@ -60,13 +60,12 @@ Stage const embed{"embed", usual, [](R r, Lines) { return has(r, Source::tokunag
 Stage const adopt{"adopt", usual, [](R r, Lines) { return has(r, Source::lines); }};
 Stage const sea{"sea", usual, [](R r, Lines lines) {
                     return has(r, Source::lines) && r.network->lines.coastlines == Coastlines::sea &&
-                           std::ranges::any_of(lines.secondary, [](SecondaryLine const& line) {
-                               return line.cause == LeftOut::coast;
-                           });
+                           std::ranges::any_of(lines.secondary,
+                                               [](SecondaryLine const& line) { return line.cause == LeftOut::coast; });
                 }};
 Stage const prune{"prune", usual, [](R r, Lines) { return r.network.has_value(); }};
 Stage const meander{"meander", 0.7, [](R r, Lines) {
-                        return r.network && (*r.network->meander != 0.0 ||
+                        return r.network && (r.network->meander.value_or(0.0) != 0.0 ||
                                              (!has(r, Source::lines) && in_equilibrium(r)));
                     }};
 Stage const raise{"raise", usual, [](R r, Lines) {
@@ -75,21 +74,22 @@ Stage const raise{"raise", usual, [](R r, Lines) {
 
 Stage const channels{"channels", usual, [](R r, Lines) { return is_around(r) && in_equilibrium(r); }};
 Stage const fill_in_equilibrium{"fill", 2.0, [](R r, Lines) { return is_around(r) && in_equilibrium(r); }};
-Stage const scatter{"scatter", usual,
-                    [](R r, Lines) { return is_around(r) && r.skeleton && r.skeleton->scatter > 0; }};
+Stage const scatter{"scatter", usual, [](R r, Lines) { return is_around(r) && r.skeleton && r.skeleton->scatter > 0; }};
 Stage const ridge{"ridge", usual, [](R r, Lines) { return is_around(r) && has_ridges(r); }};
 Stage const tin{"tin", usual, [](R r, Lines) { return is_around(r) && needs_tin(r); }};
 Stage const fill_dilated{"fill", 1.0, [](R r, Lines) { return is_around(r) && r.surface->method == Method::dilate; }};
-Stage const fill{"fill", 0.8, [](R r, Lines) {
-                     return is_around(r) && !in_equilibrium(r) && r.surface->method != Method::dilate;
-                 }};
+Stage const fill{"fill", 0.8,
+                 [](R r, Lines) { return is_around(r) && !in_equilibrium(r) && r.surface->method != Method::dilate; }};
 
 Stage const land{"land", usual, [](R r, Lines) { return is_alone(r); }};
 Stage const detail{"detail", usual, [](R r, Lines) { return is_alone(r) && levels_of(r) > 0; }};
 Stage const project{"project", 20.0, [](R r, Lines) { return is_alone(r) && r.statistics.has_value(); }};
 
 Stage const blend{"blend", 0.7, [](R r, Lines) { return has_surface(r) && !r.patches.empty(); }};
-Stage const carve{"carve", 0.7, [](R r, Lines) { return r.surface && *r.surface->drain != flow::Conditioning::none; }};
+Stage const carve{"carve", 0.7, [](R r, Lines) {
+                      return r.surface &&
+                             r.surface->drain.value_or(flow::Conditioning::none) != flow::Conditioning::none;
+                  }};
 Stage const drain{"drain", usual, [](R r, Lines) { return has_surface(r); }};
 Stage const valleys{"valleys", usual, [](R r, Lines) { return is_around(r) && r.network->fill_space; }};
 Stage const measure{"measure", usual, [](R r, Lines) { return has_surface(r); }};
@@ -113,11 +113,11 @@ Stage const compare{"compare", usual, [](R r, Lines) { return !r.output.against.
 std::span<Stage const* const> all_stages() {
     using namespace stage;
     static constexpr Stage const* in_order[] = {
-        &raster,   &read,       &shape,      &grow,    &thin,    &trace,   &embed,  &adopt,
-        &sea,      &prune,      &meander,    &raise,   &channels, &fill_in_equilibrium, &scatter, &ridge,
-        &tin,      &fill_dilated, &fill,     &land,    &detail,  &project, &blend,  &carve,
-        &drain,    &valleys,    &measure,    &catchments, &certify, &ridges, &areas, &laws,
-        &relief,   &check,      &compare};
+        &raster,  &read,   &shape, &grow,         &thin,    &trace,    &embed,
+        &adopt,   &sea,    &prune, &meander,      &raise,   &channels, &fill_in_equilibrium,
+        &scatter, &ridge,  &tin,   &fill_dilated, &fill,    &land,     &detail,
+        &project, &blend,  &carve, &drain,        &valleys, &measure,  &catchments,
+        &certify, &ridges, &areas, &laws,         &relief,  &check,    &compare};
     return in_order;
 }
 
