@@ -16,7 +16,6 @@
 #include <thalweg/io/network/read_network.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/network/schema.hpp>
-#include <thalweg/io/tables/table.hpp>
 #include <thalweg/io/network/write_network.hpp>
 #include <thalweg/io/qgis/project.hpp>
 #include <thalweg/io/qgis/styles.hpp>
@@ -27,3 +26,4 @@
 #include <thalweg/io/raster/read_drawable.hpp>
 #include <thalweg/io/raster/web_tiles.hpp>
 #include <thalweg/io/sources/sources.hpp>
+#include <thalweg/io/tables/table.hpp>

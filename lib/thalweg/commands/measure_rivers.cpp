@@ -18,9 +18,9 @@
 #include <thalweg/core/vec.hpp>
 #include <thalweg/flow/extract_streams.hpp>
 #include <thalweg/flow/paths.hpp>
-#include <thalweg/io/tables/table.hpp>
 #include <thalweg/io/qgis/styles.hpp>
 #include <thalweg/io/raster/polygons.hpp>
+#include <thalweg/io/tables/table.hpp>
 #include <thalweg/make/file_values.hpp>
 #include <thalweg/make/river_claims.hpp>
 #include <thalweg/measure/relief/zones.hpp>
