@@ -22,6 +22,7 @@ REFERRING = {
     "io/mesh/tin.hpp": "names are literals",
     "io/mesh/points.hpp": "names are literals",
     "io/network/schema.hpp": "tables of literals",
+    "recipe/stages.hpp": "a table of literals",
     "measure/relief/relief.hpp": "names are literals, and tables of them",
     "make/relief.hpp": "names are literals",
     "make/laws.hpp": "names are literals, and a row of a table of them",
