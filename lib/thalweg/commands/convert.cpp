@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/append.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/flow/catchments.hpp>

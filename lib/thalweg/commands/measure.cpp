@@ -15,6 +15,7 @@
 #include <fmt/ranges.h>
 
 #include <thalweg/commands/internal/measure_rivers.hpp>
+#include <thalweg/core/append.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include <thalweg/commands/internal/repair_network.hpp>
+#include <thalweg/core/append.hpp>
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/core/stream_network.hpp>

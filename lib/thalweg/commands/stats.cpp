@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <thalweg/core/append.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/core/vec.hpp>
 

@@ -16,6 +16,7 @@
 #include <thalweg/network/channels/channels.hpp>
 #include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/vectorise/rasterise.hpp>
+#include <thalweg/recipe/check_recipe.hpp>
 #include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::make {

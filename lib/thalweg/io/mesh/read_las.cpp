@@ -22,6 +22,7 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/files/files.hpp>
+#include <thalweg/io/files/internal/files.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/mesh/points.hpp>

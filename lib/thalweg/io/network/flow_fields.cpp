@@ -138,16 +138,16 @@ void FlowFields::read(OGRFeature const& feature, std::int64_t number) {
 }
 
 std::int64_t FlowFields::Links::below(std::int64_t number) const {
-    auto const down = down_id.find(number);
-    if (down == down_id.end()) {
+    auto const linked = down_id.find(number);
+    if (linked == down_id.end()) {
         return 0;
     }
-    std::vector<std::string> ids = ids_in(down->second);
-    ids.insert(ids.begin(), without_zero(down->second));
-    for (std::string const& id : ids) {
-        auto found = feature_of.find(id);
-        if (found == feature_of.end() && !nexus.empty() && id.starts_with(nexus)) {
-            found = feature_of.find(std::string(of_nexus) + id.substr(nexus.size()));
+    std::vector<std::string> ids = ids_in(linked->second);
+    ids.insert(ids.begin(), without_zero(linked->second));
+    for (std::string const& named : ids) {
+        auto found = feature_of.find(named);
+        if (found == feature_of.end() && !nexus.empty() && named.starts_with(nexus)) {
+            found = feature_of.find(std::string(of_nexus) + named.substr(nexus.size()));
         }
         if (found != feature_of.end() && found->second != number) {
             return found->second;
@@ -157,7 +157,7 @@ std::int64_t FlowFields::Links::below(std::int64_t number) const {
 }
 
 double FlowFields::Links::share_found() const {
-    auto const found = std::ranges::count_if(down_id, [&](auto const& down) { return below(down.first) != 0; });
+    auto const found = std::ranges::count_if(down_id, [&](auto const& linked) { return below(linked.first) != 0; });
     return down_id.empty() ? 0.0 : static_cast<double>(found) / static_cast<double>(down_id.size());
 }
 

@@ -13,6 +13,7 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/polylines.hpp>
+#include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/crs/internal/into_metres.hpp>
 #include <thalweg/io/files/internal/files.hpp>
 #include <thalweg/io/network/internal/read_network.hpp>
