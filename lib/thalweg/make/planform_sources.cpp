@@ -315,13 +315,15 @@ void warn_of_shores(StreamNetwork const& network, std::span<network::Hollow cons
 void warn_of_hollows(StreamNetwork const& network, std::vector<network::Hollow> found,
                      std::vector<Polygon> const& lakes, double cell_m, StageLog& stage_log) {
     constexpr double most_cells = 20.0;
-    auto const beside = std::ranges::stable_partition(found, [&](network::Hollow const& hollow) {
+    auto const beside = std::stable_partition(found.begin(), found.end(), [&](network::Hollow const& hollow) {
         return std::ranges::none_of(hollow.ends, [&](NodeId end) {
             return network::distance_to_lakes(network.node(end).at, lakes) <= most_cells * cell_m;
         });
     });
-    warn_of_shores(network, beside, lakes, cell_m, stage_log);
-    found.erase(beside.begin(), beside.end());
+    warn_of_shores(network,
+                   std::span<network::Hollow const>(found).subspan(static_cast<std::size_t>(beside - found.begin())),
+                   lakes, cell_m, stage_log);
+    found.erase(beside, found.end());
     if (found.empty()) {
         return;
     }

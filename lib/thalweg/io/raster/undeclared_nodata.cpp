@@ -134,7 +134,7 @@ void UndeclaredNodata::add_row(std::span<double const> stored) {
     if (is_height_) {
         low_.end_row(row_ - 1);
         high_.end_row(row_ - 1);
-        std::ranges::rotate(recent_, recent_.begin() + 1);
+        std::rotate(recent_.begin(), recent_.begin() + 1, recent_.end());
         recent_[2].assign(stored.begin(), stored.end());
         note_single();
     }
@@ -187,7 +187,7 @@ std::optional<Finding> UndeclaredNodata::require_none(std::string const& what, s
     if (!searches_ || !is_height_) {
         return std::nullopt;
     }
-    std::ranges::rotate(recent_, recent_.begin() + 1);
+    std::rotate(recent_.begin(), recent_.begin() + 1, recent_.end());
     recent_[2].clear();
     ++row_;
     note_single();

@@ -261,7 +261,8 @@ public:
     void copy_to_disk() const {
         CPLStringList const listed(VSIReadDir(folder_.c_str()), TRUE);
         std::vector<std::string> names(listed.List(), listed.List() + listed.size());
-        std::ranges::stable_partition(names, [](std::string const& name) { return name.ends_with(".shp"); });
+        std::stable_partition(names.begin(), names.end(),
+                              [](std::string const& name) { return name.ends_with(".shp"); });
         for (std::string const& name : names) {
             vsi_l_offset size = 0;
             auto const* const bytes = VSIGetMemFileBuffer((folder_ + "/" + name).c_str(), &size, FALSE);

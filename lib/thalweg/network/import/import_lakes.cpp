@@ -670,9 +670,10 @@ private:
     static void along_shore(std::vector<Mouth>& mouths) {
         std::ranges::sort(mouths, {},
                           [](Mouth const& m) { return std::tuple(m.shore.segment, m.shore.along, m.tip.x, m.tip.y); });
-        auto const repeats = std::ranges::unique(
-            mouths, [](Mouth const& a, Mouth const& b) { return distance(a.shore.at, b.shore.at) <= apart_m; });
-        mouths.erase(repeats.begin(), repeats.end());
+        auto const is_repeat = [](Mouth const& a, Mouth const& b) {
+            return distance(a.shore.at, b.shore.at) <= apart_m;
+        };
+        mouths.erase(std::unique(mouths.begin(), mouths.end(), is_repeat), mouths.end());
         if (mouths.size() > 1 && distance(mouths.front().shore.at, mouths.back().shore.at) <= apart_m) {
             mouths.pop_back();
         }

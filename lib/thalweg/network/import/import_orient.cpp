@@ -166,8 +166,8 @@ Votes of_pieces(Pieces const& p, Votes const& of_line) {
 // repeat it, and say nothing.
 Votes by_nodes(Pieces const& p, std::vector<RiverLine> const& lines) {
     auto const [first, last] = ends_of(p, lines);
-    auto const has_nodes = [&](std::size_t l) {
-        return lines[l].from_node != 0 && lines[l].to_node != 0 && first[l] != last[l];
+    auto const has_nodes = [&, &from = first, &to = last](std::size_t l) {
+        return lines[l].from_node != 0 && lines[l].to_node != 0 && from[l] != to[l];
     };
     std::map<std::pair<std::int64_t, std::size_t>, int> claims;
     for (std::size_t l = 0; l < lines.size(); ++l) {

@@ -26,7 +26,7 @@ struct Selected {
 
 Selected selected(StreamNetwork const& network, std::vector<ArcId> arcs) {
     std::ranges::sort(arcs);
-    arcs.erase(std::ranges::unique(arcs).begin(), arcs.end());
+    arcs.erase(std::unique(arcs.begin(), arcs.end()), arcs.end());
     std::vector<NodeId> nodes;
     for (ArcId const arc : arcs) {
         require_arc(network, arc, "network.select");
@@ -34,7 +34,7 @@ Selected selected(StreamNetwork const& network, std::vector<ArcId> arcs) {
         nodes.push_back(network.to(arc));
     }
     std::ranges::sort(nodes);
-    nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     NetworkDraft draft;
     for (NodeId const node : nodes) {
         draft.add_node(network.node(node).at);

@@ -41,8 +41,7 @@ std::vector<std::vector<Corner>> beside_vertices(Tin const& tin) {
     }
     for (std::vector<Corner>& of : beside) {
         std::ranges::sort(of);
-        auto const [first, last] = std::ranges::unique(of);
-        of.erase(first, last);
+        of.erase(std::unique(of.begin(), of.end()), of.end());
     }
     return beside;
 }
