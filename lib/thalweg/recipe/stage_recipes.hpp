@@ -11,8 +11,9 @@ namespace thalweg::recipe {
 
 // What the stages whose results are kept read of a recipe. Such a stage is given one of these and never the recipe of
 // the plan: keys that it does not read have their defaults in it. Its result is kept by the cache key of the same
-// recipe. So no key can decide a result that its cache key lacks: a stage that comes to read one more sees its default
-// until that key is let through here, and then the cache key holds it.
+// recipe: a stage that comes to read one more key sees its default until that key is let through here, and then the
+// cache key holds it. What the plan has read for the stage, such as lines, must follow from these keys too: nothing but
+// tests sees to it.
 
 /// For lines as their file has them.
 Recipe recipe_for_lines(Recipe const& recipe);
