@@ -26,6 +26,7 @@ REFERRING = {
     "measure/relief/relief.hpp": "names are literals, and tables of them",
     "make/relief.hpp": "names are literals",
     "make/laws.hpp": "names are literals, and a row of a table of them",
+    "recipe/recipe_fields.hpp": "a field of a recipe, for the time of a call",
     "recipe/recipe_keys.hpp": "a row of a table of literals",
     "recipe/recipe_files.hpp": "a row of a table of literals",
     "ensemble/draw_ensemble.hpp": "names are literals",

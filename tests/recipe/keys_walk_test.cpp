@@ -470,7 +470,7 @@ Walked walk(BaseRecipe const& base, Key const& key) {
             if (key.take(recipe) == before) {
                 continue;
             }
-            if (!key.use.holds(recipe)) {
+            if (!key.use(recipe)) {
                 std::string const fault = checked(recipe);
                 EXPECT_TRUE(has(fault, path) || has(fault, "patch.1." + key.name()) ||
                             has(fault, "[" + section_of(path) + "]"))
@@ -515,7 +515,7 @@ TEST(Keys, EachIsTriedInARecipeOfTheWalk) {
         for (BaseRecipe const& base : bases) {
             for (Words context : is_walked(base, path) ? contexts_of(base, path) : std::vector<Words>{}) {
                 context.push_back(path + "=" + values_of(key).back());
-                used = used || (has_stage(base, path) && key.use.holds(recipe_of(base, context)));
+                used = used || (has_stage(base, path) && key.use(recipe_of(base, context)));
             }
         }
         EXPECT_TRUE(used) << "no recipe of the walk uses " << path;

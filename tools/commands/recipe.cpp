@@ -13,6 +13,7 @@
 #include <thalweg/commands/make.hpp>
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/recipe/recipe.hpp>
+#include <thalweg/recipe/stages.hpp>
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
@@ -105,8 +106,19 @@ std::string key_as_text(KeyHelp const& key) {
     return text;
 }
 
-/// One JSON object: "keys", an array of objects.
-std::string keys_as_json(std::vector<KeyHelp> const& keys) {
+/// The steps of make, in order.
+nlohmann::ordered_json stages_as_json() {
+    auto stages = nlohmann::ordered_json::array();
+    for (recipe::Stage const* const stage : recipe::all_stages()) {
+        stages.push_back({{"stage", stage->name},
+                          {"runs_if", stage->runs_if()},
+                          {"seconds_a_million_cells", stage->seconds_a_million}});
+    }
+    return stages;
+}
+
+/// One JSON object: "keys", an array of objects; of all keys, also "stages".
+std::string keys_as_json(std::vector<KeyHelp> const& keys, bool with_stages) {
     nlohmann::ordered_json json{{"keys", nlohmann::ordered_json::array()}};
     for (KeyHelp const& key : keys) {
         json["keys"].push_back({{"key", key.path},
@@ -119,12 +131,15 @@ std::string keys_as_json(std::vector<KeyHelp> const& keys) {
                                 {"used_by", key.used_by},
                                 {"is_file", key.is_file}});
     }
+    if (with_stages) {
+        json["stages"] = stages_as_json();
+    }
     return json.dump(2) + "\n";
 }
 
 void print_keys(std::string const& word, Session const& session) {
     std::vector<KeyHelp> const keys = keys_named(word);
-    fmt::print("{}", session.json       ? keys_as_json(keys)
+    fmt::print("{}", session.json       ? keys_as_json(keys, word.empty())
                      : keys.size() == 1 ? key_as_text(keys.front())
                                         : keys_as_list(keys));
 }

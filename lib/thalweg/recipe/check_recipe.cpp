@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/recipe/check_recipe.hpp>
+#include <thalweg/recipe/condition.hpp>
 
 #include <algorithm>
 #include <array>
@@ -14,14 +15,6 @@
 #include <thalweg/solver/spectral/circulant.hpp>
 
 namespace thalweg::recipe {
-
-bool in_equilibrium(Recipe const& recipe) {
-    return recipe.network && recipe.surface && recipe.surface->method == Method::equilibrium;
-}
-
-bool on_raster(Recipe const& recipe) {
-    return recipe.surface && recipe.surface->method == Method::raster;
-}
 
 bool replaces_rivers(Recipe const& recipe) {
     return std::any_of(recipe.patches.begin(), recipe.patches.end(),
@@ -93,7 +86,7 @@ std::string words_for_unused(std::string const& path, Value const& value, std::s
 std::vector<UnusedKey> unused_keys(Recipe const& recipe) {
     std::vector<UnusedKey> found;
     for (Key const& key : all_keys()) {
-        std::size_t const count = key.use.holds(recipe) ? 0 : key.part->count(recipe);
+        std::size_t const count = key.use(recipe) ? 0 : key.part->count(recipe);
         for (std::size_t item = 0; item < count; ++item) {
             std::string const path = key.place(item);
             auto const value = key.take(recipe, item);
@@ -263,8 +256,7 @@ void check_output(OutputRecipe const& output, bool makes_tin, Faults& faults) {
 void check_frame(Recipe const& recipe, Faults& faults) {
     add_if((recipe.grid.width > 0) != (recipe.grid.height > 0), faults,
            "grid.width and grid.height go together: give both or neither");
-    bool const fills_a_frame =
-        recipe.network && recipe.network->source == Source::forest && recipe.network->forest.region.empty();
+    bool const fills_a_frame = from_forest(recipe) && recipe.network->forest.region.empty();
     bool const is_framed = on_raster(recipe) || ((recipe.network || has_file_of_points(recipe)) && !fills_a_frame);
     add_if(recipe.grid.width == 0 && !is_framed, faults,
            "grid.width and grid.height are missing: nothing else gives the size of the grid");

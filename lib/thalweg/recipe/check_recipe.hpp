@@ -8,17 +8,12 @@
 #include <vector>
 
 #include <thalweg/core/raster.hpp>
+#include <thalweg/recipe/condition.hpp>
 #include <thalweg/recipe/recipe.hpp>
 
 namespace thalweg::recipe {
 
 // What several keys of a recipe ask for together.
-
-/// Whether the recipe draws its land in equilibrium with rivers.
-bool in_equilibrium(Recipe const& recipe);
-
-/// Whether the surface is a DEM of a file.
-bool on_raster(Recipe const& recipe);
 
 /// Whether a patch may take the place of rivers.
 bool replaces_rivers(Recipe const& recipe);

@@ -8,6 +8,7 @@
 #include <thalweg/growth/dla/grow_dla.hpp>
 #include <thalweg/recipe/check_recipe.hpp>
 #include <thalweg/recipe/frame.hpp>
+#include <thalweg/recipe/plan.hpp>
 #include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::recipe {
@@ -25,24 +26,17 @@ std::int64_t cells_of_cluster(std::int64_t particles) {
 std::int64_t memory_of(Recipe const& recipe, std::int64_t cells) {
     constexpr std::int64_t program = 100'000'000; // with its libraries
     constexpr std::int64_t a_particle = 60;
-    bool const has_cluster = recipe.network && recipe.network->source == Source::dla;
     constexpr std::int64_t a_cell_of_exact_detail = 120; // transforms on a torus of up to seven cells per cell
     bool const exact = levels_of(recipe) > 0 && recipe.detail->midpoint.stencil == fractal::Stencil::exact;
     return program + bytes_needed(cells) * 2 + (exact ? cells * a_cell_of_exact_detail : 0) +
-           (has_cluster ? recipe.network->dla.particles * a_particle : 0);
+           (from_cluster(recipe) ? recipe.network->dla.particles * a_particle : 0);
 }
 
-double seconds_of(Recipe const& recipe, std::vector<Stage const*> const& stages, std::int64_t cells) {
-    double const millions = static_cast<double>(cells) / 1e6;
-    double seconds = 1.5 * millions; // files and the page
-    for (Stage const* const one : stages) {
-        seconds += millions * one->seconds_a_million;
-    }
-    if (recipe.network && recipe.network->source == Source::dla) {
-        seconds += 2.5e-6 * static_cast<double>(recipe.network->dla.particles) +
-                   8e-8 * growth::least_arrivals(recipe.network->dla);
-    }
-    return seconds;
+/// What a cluster takes besides its cells [s].
+double seconds_of_particles(Recipe const& recipe) {
+    return from_cluster(recipe) ? 2.5e-6 * static_cast<double>(recipe.network->dla.particles) +
+                                      8e-8 * growth::least_arrivals(recipe.network->dla)
+                                : 0.0;
 }
 
 /// The Run of a forecast: of what planning finds it reports warnings, and no progress of stages.
@@ -53,21 +47,38 @@ Run warnings_only(Run run) {
         }
     };
     run.log = {};
+    run.planned = {};
     return run;
 }
 
 } // namespace
 
+std::int64_t cells_of(Recipe const& recipe, std::optional<Grid> const& grid) {
+    return grid ? grid->cells() : cells_of_cluster(recipe.network->dla.particles);
+}
+
+Timings expected_times(Recipe const& recipe, RiverLines const& lines, std::int64_t cells) {
+    constexpr double writing = 1.5; // [s] a million cells: files and the page
+    double const millions = static_cast<double>(cells) / 1e6;
+    Timings expected;
+    for (Stage const* const one : stages_of(recipe, lines)) {
+        double const besides = one == &stage::grow ? seconds_of_particles(recipe) : 0.0;
+        expected.push_back({one->name, millions * one->seconds_a_million + besides});
+    }
+    expected.push_back({"write", millions * writing});
+    return expected;
+}
+
 Forecast forecast(Plan const& plan) {
     Forecast found;
     found.grid = plan.grid;
-    found.cells = plan.grid ? plan.grid->cells() : cells_of_cluster(plan.recipe.network->dla.particles);
-    std::vector<Stage const*> const stages = stages_of(plan);
-    for (Stage const* const one : stages) {
-        found.stages.emplace_back(one->name);
+    found.cells = cells_of(plan.recipe, plan.grid);
+    for (StageTime const& one : expected_times(plan.recipe, plan.lines, found.cells)) {
+        found.stages.push_back(one.stage);
+        found.seconds += one.wall_s;
     }
+    found.stages.pop_back(); // its files
     found.memory_bytes = memory_of(plan.recipe, found.cells);
-    found.seconds = seconds_of(plan.recipe, stages, found.cells);
     found.findings = plan.findings;
     return found;
 }

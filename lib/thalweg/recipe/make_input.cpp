@@ -19,6 +19,7 @@
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/sources/sources.hpp>
 #include <thalweg/recipe/check_recipe.hpp>
+#include <thalweg/recipe/condition.hpp>
 #include <thalweg/recipe/read_inputs.hpp>
 #include <thalweg/recipe/recipe_files.hpp>
 
@@ -146,7 +147,7 @@ Recipe recipe_from(std::string const& path) {
 }
 
 Recipe rebuild_recipe(Recipe recipe, Run const& run) {
-    refuse_if<BadInput>(!recipe.network || recipe.network->source != Source::lines,
+    refuse_if<BadInput>(!from_lines(recipe),
                         "recipe.rebuild_recipe: there are no rivers of a file: name a file of lines with heights");
     if (!recipe.surface) {
         recipe.surface.emplace();
@@ -165,7 +166,7 @@ Recipe settled_recipe(Recipe const& wanted, Run const& run) {
     stage_log.find(on.findings);
     Recipe settled = wanted;
     settled.grid = on.grid;
-    if (wanted.network && wanted.network->source == Source::lines) {
+    if (from_lines(wanted)) {
         RiverLines const lines = read_lines(settled, run);
         stage_log.find(lines.findings);
         settled = settle_on_lines(std::move(settled), lines, stage_log, run).recipe;

@@ -24,6 +24,7 @@
 #include <thalweg/network/import/prepare_lines.hpp>
 #include <thalweg/network/planform/rotate.hpp>
 #include <thalweg/recipe/check_recipe.hpp>
+#include <thalweg/recipe/condition.hpp>
 #include <thalweg/recipe/frame.hpp>
 #include <thalweg/recipe/read_inputs.hpp>
 #include <thalweg/recipe/recipe_files.hpp>
@@ -31,11 +32,6 @@
 
 namespace thalweg::recipe {
 namespace {
-
-/// Whether rivers are grown for terrain in equilibrium: these should look natural, with meanders.
-bool grown_for_land(Recipe const& recipe) {
-    return recipe.network->source != Source::lines && in_equilibrium(recipe);
-}
 
 /// The land on its grid: the region's polygons, an island, or all of it.
 Mask land_of(Recipe const& recipe, Run const& run) {
@@ -457,9 +453,8 @@ Plan with_surface_settled(Plan plan) {
     bool const has_rivers = plan.recipe.network.has_value();
     if (has_rivers && !stage::raise.runs(plan.recipe) && !land.mean_slope_deg && land.like.empty() &&
         !(wanted.dilate.relief_m > 0.0)) {
-        land.mean_slope_deg = plan.recipe.network->source == Source::lines
-                                  ? usual_slope_deg(plan.recipe.grid.cell_m)
-                                  : surface::EquilibriumParams{}.mean_slope_deg;
+        land.mean_slope_deg = from_lines(plan.recipe) ? usual_slope_deg(plan.recipe.grid.cell_m)
+                                                      : surface::EquilibriumParams{}.mean_slope_deg;
     }
     wanted.drain = wanted.drain.value_or(has_rivers ? flow::Conditioning::carve : flow::Conditioning::none);
     return plan;
@@ -521,6 +516,9 @@ Plan resolve(Recipe const& recipe, Run const& run) {
     require_files(plan.recipe);
     plan = with_dems(std::move(plan), stage_log, run);
     require_fit(plan);
+    if (run.planned) {
+        run.planned(expected_times(plan.recipe, plan.lines, cells_of(plan.recipe, plan.grid)));
+    }
     plan.findings = stage_log.take_findings();
     plan.timings_s = stage_log.take();
     run.report(plan.findings);

@@ -26,6 +26,7 @@
 #include <thalweg/network/import/prepare_lines.hpp>
 #include <thalweg/network/import/river_heights.hpp>
 #include <thalweg/recipe/check_recipe.hpp>
+#include <thalweg/recipe/condition.hpp>
 #include <thalweg/recipe/frame.hpp>
 #include <thalweg/recipe/recipe_files.hpp>
 #include <thalweg/recipe/recipe_keys.hpp>
@@ -463,7 +464,7 @@ namespace {
 
 /// The CRS of a DEM that names none: that of the rivers beside it, if they have one.
 std::string crs_of_rivers(Recipe const& recipe, Run const& run) {
-    bool const has_lines = recipe.network && recipe.network->source == Source::lines;
+    bool const has_lines = from_lines(recipe);
     std::string const crs = has_lines ? read_lines(recipe, run.quiet()).crs : "";
     return crs.empty() ? "EPSG:32631" : crs;
 }

@@ -215,7 +215,7 @@ Recipe keep_inputs(Recipe recipe, io::OutputFolder const& out) {
     for (NamedFile const& file : files_of(recipe)) {
         Key const& key = *file.key;
         bool const is_array = key.part->is_array;
-        if (is_array || key.use.holds(recipe)) {
+        if (is_array || key.use(recipe)) {
             std::string const items = is_array ? fmt::format("{}{}/", key.part->name, file.item + 1) : "";
             std::string const into = "inputs/" + items + key.folder;
             key.put(recipe, keep_input(out, recipe.folder, file.name, into), file.item);

@@ -240,22 +240,21 @@ constexpr std::array<char const*, 11> type_names{"yes/no",        "integer",    
                                                  "three numbers", "four numbers",    "text",         "text",
                                                  "text",          "integer or text", "list of words"};
 
+/// Where a field lies.
+struct PlaceOfField {
+    void const* operator()(Enumeration const& e) const { return e.at; }
+    void const* operator()(void const* at) const { return at; }
+};
+
+void const* place_of(Field const& field) {
+    return std::visit(PlaceOfField{}, field);
+}
+
 /// Lists the words of a key and what they stand for.
 void list_words(Key& key, Field const& field) {
-    Allowed const& allowed = key.row->allowed;
-    auto const* const enumeration = std::get_if<Enumeration>(&field);
-    int const least = enumeration == nullptr ? 0 : enumeration->least;
-    auto const add = [&](std::string const& word, std::optional<int> number) {
-        key.numbers.push_back(number.value_or(least + static_cast<int>(key.numbers.size())));
-        key.help.choices.push_back(word);
-    };
-    for (std::string const& word : allowed.more_words == nullptr ? std::vector<std::string>() : allowed.more_words()) {
-        add(word, std::nullopt);
-    }
-    for (Word const& word : allowed.words) {
-        if (word.text != nullptr) {
-            add(word.text, word.number);
-        }
+    for (auto& [word, number] : words_of(*key.row, field)) {
+        key.help.choices.push_back(std::move(word));
+        key.numbers.push_back(number);
     }
 }
 
@@ -280,27 +279,17 @@ std::string standard_text(Value const& value) {
     return number != nullptr ? fmt::format("{}", *number) : toml_text(value);
 }
 
-/// With parts of conditions in place of their names.
-std::string written_out(std::string text) {
-    for (auto const& [name, condition] : named_conditions()) {
-        for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name)) {
-            text.replace(at, name.size(), condition);
-        }
-    }
-    return text;
-}
-
 Key make_key(Row const& row, Recipe& standard) {
     std::string_view const path = row.path;
     Key key;
     key.row = &row;
     key.part = find_section(path.substr(0, path.find('.') == std::string_view::npos ? 0 : path.find('.')));
-    key.use = {written_out(row.used), row.extra.holds};
+    key.use = row.used;
     key.help.path = path;
     key.help.type = type_names.at(static_cast<std::size_t>(row.kind));
     key.help.unit = row.unit;
     key.help.meaning = row.meaning;
-    key.help.used_by = key.use.text;
+    key.help.used_by = key.use.text();
     key.help.is_file = row.kind == KeyKind::file;
     key.folder = row.extra.folder != nullptr ? row.extra.folder : key.name() + "/";
     if (row.kind == KeyKind::integer || row.kind == KeyKind::number) {
@@ -326,6 +315,38 @@ std::vector<Key> make_keys() {
 }
 
 } // namespace
+
+std::vector<std::pair<std::string, int>> words_of(Row const& row, Field const& field) {
+    auto const* const enumeration = std::get_if<Enumeration>(&field);
+    int const least = enumeration == nullptr ? 0 : enumeration->least;
+    std::vector<std::pair<std::string, int>> words;
+    auto const add = [&](std::string const& word, std::optional<int> number) {
+        words.emplace_back(word, number.value_or(least + static_cast<int>(words.size())));
+    };
+    if (row.allowed.more_words != nullptr) {
+        for (std::string const& word : row.allowed.more_words()) {
+            add(word, std::nullopt);
+        }
+    }
+    for (Word const& word : row.allowed.words) {
+        if (word.text != nullptr) {
+            add(word.text, word.number);
+        }
+    }
+    return words;
+}
+
+FoundRow row_of(Condition::FieldOf const& field) {
+    static Recipe sample = with_all_sections();
+    void const* const place = place_of(*field(sample));
+    for (Row const& row : recipe_rows()) {
+        Field const of_row = row.field(sample, 0);
+        if (place_of(of_row) == place) {
+            return {row, of_row};
+        }
+    }
+    throw std::logic_error("recipe: a condition asks for a field that no key has");
+}
 
 void Key::put(Recipe& recipe, Value const& value, std::optional<Item> item) const {
     Recipe trial = with_all_sections();

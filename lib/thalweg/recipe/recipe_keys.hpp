@@ -18,49 +18,11 @@
 #include <vector>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/recipe/condition.hpp>
 #include <thalweg/recipe/recipe.hpp>
+#include <thalweg/recipe/recipe_fields.hpp>
 
 namespace thalweg::recipe {
-
-// Values of keys, and the fields of a recipe that hold them.
-
-using Pair = std::array<double, 2>;
-using Triple = std::array<double, 3>;
-using Quad = std::array<double, 4>;
-using WordList = std::vector<std::string>;
-using Value = std::variant<bool, std::int64_t, double, std::string, Pair, Triple, Quad, WordList>;
-
-/// A value as TOML writes it.
-std::string toml_text(Value const& value);
-
-/// An enumeration by the numbers of its enumerators; an optional one is -1 where there is none.
-struct Enumeration {
-    void* at;
-    int (*get)(void const*);
-    void (*set)(void*, int);
-    int least = 0;
-};
-
-template <class E> Enumeration choice(E& field) {
-    return {&field, [](void const* at) { return static_cast<int>(*static_cast<E const*>(at)); },
-            [](void* at, int number) { *static_cast<E*>(at) = static_cast<E>(number); }};
-}
-
-template <class E> Enumeration choice(std::optional<E>& field) {
-    using Optional = std::optional<E>;
-    auto const get = [](void const* at) {
-        Optional const& held = *static_cast<Optional const*>(at);
-        return held ? static_cast<int>(*held) : -1;
-    };
-    auto const set = [](void* at, int number) {
-        *static_cast<Optional*>(at) = number < 0 ? Optional() : Optional(static_cast<E>(number));
-    };
-    return {&field, get, set, -1};
-}
-
-using Field = std::variant<bool*, int*, std::int64_t*, std::uint64_t*, double*, std::string*, std::optional<double>*,
-                           std::optional<Pair>*, std::optional<Triple>*, std::optional<Quad>*, Enumeration,
-                           std::optional<std::vector<OutputFiles>>*>;
 
 // Rows of the table.
 
@@ -121,8 +83,7 @@ struct Extra {
     std::array<std::optional<double>, 2> earlier = {}; ///< defaults of earlier versions, or what a key left out came to
     bool left_out_at_zero = false;                     ///< the field says by 0 that the key is left out
     char const* layer = nullptr;                       ///< of a file: the key of its layer
-    char const* folder = nullptr;           ///< of a file: where below inputs/ a copy lies; null: folder of its name
-    bool (*holds)(Recipe const&) = nullptr; ///< whether the key has an effect, where `used` is for people alone
+    char const* folder = nullptr; ///< of a file: where below inputs/ a copy lies; null: folder of its name
 };
 
 using Item = std::size_t; ///< of a section that is an array, counted from 0
@@ -133,7 +94,7 @@ struct Row {
     KeyKind kind;
     char const* unit;
     Allowed allowed;
-    char const* used; ///< when it has an effect, see Use; "" in every recipe that has the section
+    Condition used; ///< when it has an effect, in a recipe that has the section
     char const* meaning;
     Field (*field)(Recipe&, Item);
     Extra extra;
@@ -142,22 +103,17 @@ struct Row {
 /// Every key in the order of recipe files, section by section.
 std::span<Row const> recipe_rows();
 
-/// Parts of conditions by their names, which `used` and other parts may hold.
-std::span<std::pair<std::string_view, std::string_view> const> named_conditions();
+/// The row whose key is held by a field of a sample recipe, and that field.
+struct FoundRow {
+    Row const& row;
+    Field field;
+};
+FoundRow row_of(Condition::FieldOf const& field);
+
+/// The words that a key may be, and the enumerators they stand for.
+std::vector<std::pair<std::string, int>> words_of(Row const& row, Field const& field);
 
 // Keys, as the rows of the table make them.
-
-/// A condition on a recipe: `[network] and (surface.method = "tin" or "diffuse" or no skeleton.points)`. It speaks of
-/// sections that are there, keys that are given (a text is not ""), and keys that are one of several words, above or
-/// below a whole number; "and" binds closer than "or".
-struct Use {
-    std::string text;                      ///< "" holds for every recipe
-    bool (*test)(Recipe const&) = nullptr; ///< instead of the text
-
-    bool holds(Recipe const& recipe) const;
-    /// What a recipe lacks for it to hold and what it has instead; "" where it holds.
-    std::string lacks(Recipe const& recipe) const;
-};
 
 /// A section of recipe files, [network] with what lies below it, or the keys before the first section.
 struct Section {
@@ -173,7 +129,7 @@ struct Key {
     Row const* row = nullptr;
     Section const* part = nullptr;
     KeyHelp help;
-    Use use;                       ///< when it has an effect
+    Condition use;                 ///< when it has an effect
     std::optional<KeyRange> range; ///< of a number
     std::vector<int> numbers;      ///< by word of help.choices: the enumerator it stands for
     std::string folder;            ///< of a file: where below inputs/ a copy of it lies, "mask/"

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/recipe/condition.hpp>
 #include <thalweg/recipe/recipe_files.hpp>
 #include <thalweg/recipe/recipe_keys.hpp>
 
@@ -44,7 +45,7 @@ Recipe recipe_for_lines(Recipe const& recipe) {
 
 Recipe recipe_for_raster(Recipe const& recipe) {
     Recipe read = in_folder_of(recipe);
-    if (recipe.grid.crs.empty() && recipe.network && recipe.network->source == Source::lines) {
+    if (recipe.grid.crs.empty() && from_lines(recipe)) {
         read = recipe_for_lines(recipe); // a DEM without a CRS takes theirs
     }
     read.grid = recipe.grid;
@@ -92,7 +93,7 @@ Recipe recipe_for_planform(Recipe const& recipe) {
         SurfaceRecipe& surface = read.surface.emplace();
         surface.method = recipe.surface->method;
         surface.source = recipe.surface->source; // rivers end at its holes
-        if (recipe.network && recipe.network->source == Source::lines) {
+        if (from_lines(recipe)) {
             surface.equilibrium.lakes = recipe.surface->equilibrium.lakes; // and run through these
         }
     }

@@ -4,111 +4,77 @@
 
 #include <algorithm>
 
-#include <thalweg/recipe/check_recipe.hpp>
+#include <fmt/format.h>
 
 namespace thalweg::recipe {
 namespace {
 
-bool has(Recipe const& recipe, Source source) {
-    return recipe.network && recipe.network->source == source;
+bool has_coastlines(RiverLines const& lines) {
+    return std::ranges::any_of(lines.secondary, [](SecondaryLine const& line) { return line.cause == LeftOut::coast; });
 }
-
-bool has_strokes(Recipe const& recipe) {
-    return has(recipe, Source::tokunaga) && !recipe.network->tokunaga.strokes.empty();
-}
-
-/// A surface around rivers.
-bool is_around(Recipe const& recipe) {
-    return recipe.network && recipe.surface;
-}
-
-/// A surface without rivers.
-bool is_alone(Recipe const& recipe) {
-    return !recipe.network;
-}
-
-bool has_surface(Recipe const& recipe) {
-    return recipe.surface || !recipe.network;
-}
-
-bool has_ridges(Recipe const& recipe) {
-    return recipe.skeleton && recipe.skeleton->ridges != Ridges::none;
-}
-
-bool needs_tin(Recipe const& recipe) {
-    SurfaceRecipe const& wanted = *recipe.surface;
-    bool const over_tin = wanted.method == Method::tin || (wanted.method == Method::dilate && wanted.base == Base::tin);
-    return over_tin || (recipe.skeleton && recipe.skeleton->tin);
-}
-
-using R = Recipe const&;
-using Lines = RiverLines const&;
 
 constexpr double usual = 0.1; ///< [s] a million cells
+
+Condition const over_tin = ask::is(&SurfaceRecipe::method, {Method::tin}) or
+                           (by_dilation and ask::is(&SurfaceRecipe::base, {Base::tin})) or
+                           ask::is(&SkeletonRecipe::tin, {true});
+Condition const is_conditioned = ask::is(&SurfaceRecipe::drain, {flow::Conditioning::carve, flow::Conditioning::fill});
 
 } // namespace
 
 namespace stage {
 
-Stage const raster{"raster", usual, [](R r, Lines) { return on_raster(r); }};
-Stage const read{"read", usual, [](R r, Lines) { return has(r, Source::lines) || has_strokes(r); }};
-Stage const shape{"shape", usual, [](R r, Lines) { return has(r, Source::forest); }};
-Stage const grow{"grow", usual, [](R r, Lines) { return r.network && !has(r, Source::lines); }};
-Stage const thin{"thin", usual, [](R r, Lines) { return has(r, Source::dla); }};
-Stage const trace{"trace", usual, [](R r, Lines) { return has(r, Source::dla); }};
-Stage const embed{"embed", usual, [](R r, Lines) { return has(r, Source::tokunaga) && !has_strokes(r); }};
-Stage const adopt{"adopt", usual, [](R r, Lines) { return has(r, Source::lines); }};
-Stage const sea{"sea", usual, [](R r, Lines lines) {
-                    return has(r, Source::lines) && r.network->lines.coastlines == Coastlines::sea &&
-                           std::ranges::any_of(lines.secondary,
-                                               [](SecondaryLine const& line) { return line.cause == LeftOut::coast; });
-                }};
-Stage const prune{"prune", usual, [](R r, Lines) { return r.network.has_value(); }};
-Stage const meander{"meander", 0.7, [](R r, Lines) {
-                        return r.network && (r.network->meander.value_or(0.0) != 0.0 ||
-                                             (!has(r, Source::lines) && in_equilibrium(r)));
-                    }};
-Stage const raise{"raise", usual, [](R r, Lines) {
-                      return r.network && !(in_equilibrium(r) && r.network->heights == Heights::graded);
-                  }};
+using namespace ask;
 
-Stage const channels{"channels", usual, [](R r, Lines) { return is_around(r) && in_equilibrium(r); }};
-Stage const fill_in_equilibrium{"fill", 2.0, [](R r, Lines) { return is_around(r) && in_equilibrium(r); }};
-Stage const scatter{"scatter", usual, [](R r, Lines) { return is_around(r) && r.skeleton && r.skeleton->scatter > 0; }};
-Stage const ridge{"ridge", usual, [](R r, Lines) { return is_around(r) && has_ridges(r); }};
-Stage const tin{"tin", usual, [](R r, Lines) { return is_around(r) && needs_tin(r); }};
-Stage const fill_dilated{"fill", 1.0, [](R r, Lines) { return is_around(r) && r.surface->method == Method::dilate; }};
-Stage const fill{"fill", 0.8,
-                 [](R r, Lines) { return is_around(r) && !in_equilibrium(r) && r.surface->method != Method::dilate; }};
+Stage const raster{"raster", usual, on_raster};
+Stage const read{"read", usual, from_lines or from_strokes};
+Stage const shape{"shape", usual, from_forest};
+Stage const grow{"grow", usual, from_cluster or by_tokunaga or from_forest};
+Stage const thin{"thin", usual, from_cluster};
+Stage const trace{"trace", usual, from_cluster};
+Stage const embed{"embed", usual, by_tokunaga and not given(&TokunagaRecipe::strokes)};
+Stage const adopt{"adopt", usual, from_lines};
+Stage const sea{
+    "sea", usual, from_lines and is(&LinesRecipe::coastlines, {Coastlines::sea}), {has_coastlines, "has coastlines"}};
+Stage const prune{"prune", usual, with_rivers};
+Stage const meander{"meander", 0.7, above(&NetworkRecipe::meander, 0) or grown_for_land};
+Stage const raise{"raise", usual,
+                  with_rivers and (not is(&SurfaceRecipe::method, {Method::equilibrium}) or
+                                   not is(&NetworkRecipe::heights, {Heights::graded}))};
 
-Stage const land{"land", usual, [](R r, Lines) { return is_alone(r); }};
-Stage const detail{"detail", usual, [](R r, Lines) { return is_alone(r) && levels_of(r) > 0; }};
-Stage const project{"project", 20.0, [](R r, Lines) { return is_alone(r) && r.statistics.has_value(); }};
+Stage const channels{"channels", usual, in_equilibrium};
+Stage const fill_in_equilibrium{"fill", 2.0, in_equilibrium};
+Stage const scatter{"scatter", usual, around_rivers and above(&SkeletonRecipe::scatter, 0)};
+Stage const ridge{"ridge", usual, around_rivers and between_streams};
+Stage const tin{"tin", usual, around_rivers and over_tin};
+Stage const fill_dilated{"fill", 1.0, by_dilation};
+Stage const fill{"fill", 0.8, around_rivers and not is(&SurfaceRecipe::method, {Method::equilibrium, Method::dilate})};
 
-Stage const blend{"blend", 0.7, [](R r, Lines) { return has_surface(r) && !r.patches.empty(); }};
-Stage const carve{"carve", 0.7, [](R r, Lines) {
-                      return r.surface &&
-                             r.surface->drain.value_or(flow::Conditioning::none) != flow::Conditioning::none;
-                  }};
-Stage const drain{"drain", usual, [](R r, Lines) { return has_surface(r); }};
-Stage const valleys{"valleys", usual, [](R r, Lines) { return is_around(r) && r.network->fill_space; }};
-Stage const measure{"measure", usual, [](R r, Lines) { return has_surface(r); }};
-Stage const catchments{"catchments", usual, [](R r, Lines) {
-                           return is_around(r) && r.output.catchments && r.output.has(OutputFiles::catchments);
-                       }};
-Stage const certify{"certify", usual, [](R r, Lines) { return is_around(r); }};
-Stage const ridges{"ridges", usual, [](R r, Lines) {
-                       return is_around(r) && (has_ridges(r) || (r.skeleton && !r.skeleton->ridge_lines.empty()));
-                   }};
-Stage const areas{"areas", usual, [](R r, Lines) {
-                      return has_surface(r) && r.output.accumulation && r.output.has(OutputFiles::areas);
-                  }};
-Stage const laws{"laws", usual, [](R r, Lines) { return has_surface(r); }};
-Stage const relief{"relief", 0.7, [](R r, Lines) { return has_surface(r); }};
-Stage const check{"check", usual, [](R r, Lines) { return r.network.has_value(); }};
-Stage const compare{"compare", usual, [](R r, Lines) { return !r.output.against.empty(); }};
+Stage const land{"land", usual, not with_rivers};
+Stage const detail{"detail", usual, not with_rivers and is(&DetailRecipe::method, {DetailMethod::midpoint})};
+Stage const project{"project", 20.0, not with_rivers and has(&Recipe::statistics)};
+
+Stage const blend{"blend", 0.7, with_surface and has(&Recipe::patches)};
+Stage const carve{"carve", 0.7, is_conditioned};
+Stage const drain{"drain", usual, with_surface};
+Stage const valleys{"valleys", usual, around_rivers and is(&NetworkRecipe::fill_space, {true})};
+Stage const measure{"measure", usual, with_surface};
+Stage const catchments{"catchments", usual,
+                       around_rivers and is(&OutputRecipe::catchments, {true}) and writes(OutputFiles::catchments)};
+Stage const certify{"certify", usual, around_rivers};
+Stage const ridges{"ridges", usual, around_rivers and (between_streams or given(&SkeletonRecipe::ridge_lines))};
+Stage const areas{"areas", usual,
+                  with_surface and is(&OutputRecipe::accumulation, {true}) and writes(OutputFiles::areas)};
+Stage const laws{"laws", usual, with_surface};
+Stage const relief{"relief", 0.7, with_surface};
+Stage const check{"check", usual, with_rivers};
+Stage const compare{"compare", usual, given(&OutputRecipe::against)};
 
 } // namespace stage
+
+std::string Stage::runs_if() const {
+    return lines.holds == nullptr ? when.text() : fmt::format("{} and its file {}", when.text(), lines.words);
+}
 
 std::span<Stage const* const> all_stages() {
     using namespace stage;
@@ -121,11 +87,11 @@ std::span<Stage const* const> all_stages() {
     return in_order;
 }
 
-std::vector<Stage const*> stages_of(Plan const& plan) {
+std::vector<Stage const*> stages_of(Recipe const& recipe, RiverLines const& lines) {
     std::vector<Stage const*> found;
     for (Stage const* const one : all_stages()) {
-        if (one->runs(plan.recipe, plan.lines)) {
-            found.insert(found.end(), one == &stage::blend ? plan.recipe.patches.size() : 1, one);
+        if (one->runs(recipe, lines)) {
+            found.insert(found.end(), one == &stage::blend ? recipe.patches.size() : 1, one);
         }
     }
     return found;

@@ -3,6 +3,8 @@
 #pragma once
 /// \internal For the modules above this one.
 
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,22 +16,32 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/run/stage_log.hpp>
 #include <thalweg/growth/tokunaga/grow_tokunaga.hpp>
-#include <thalweg/recipe/plan.hpp>
+#include <thalweg/recipe/condition.hpp>
 #include <thalweg/recipe/recipe.hpp>
 
 namespace thalweg::recipe {
 
+/// A condition on the rivers' file.
+struct LinesCondition {
+    bool (*holds)(RiverLines const& lines) = nullptr; ///< null: for any file
+    char const* words = "";                           ///< the file "has coastlines"
+};
+
 /// A step of make. This is the one place that says when it runs and what it costs: make asks it, and forecasts,
-/// progress and timings have its name.
+/// progress, timings and `thalweg recipe --json` have its name.
 struct Stage {
     char const* name;
     double seconds_a_million; ///< of cells, on one core of 2020; estimated
-    /// lines: of the rivers' file
-    bool (*runs_with)(Recipe const& recipe, RiverLines const& lines);
+    Condition when;           ///< on a recipe with its defaults
+    LinesCondition lines = {};
 
     /// \param recipe with its defaults
-    /// \param lines of the rivers' file, which tell whether there are coastlines
-    bool runs(Recipe const& recipe, RiverLines const& lines = {}) const { return runs_with(recipe, lines); }
+    /// \param of_file lines of the rivers' file
+    bool runs(Recipe const& recipe, RiverLines const& of_file = {}) const {
+        return when(recipe) && (lines.holds == nullptr || lines.holds(of_file));
+    }
+    /// In words.
+    std::string runs_if() const;
 };
 
 /// The stages. timings_s of report.json has these names.
@@ -43,8 +55,18 @@ extern Stage const carve, drain, valleys, measure, catchments, certify, ridges, 
 /// All of them, in the order in which they run.
 std::span<Stage const* const> all_stages();
 
-/// The stages that run for a plan, in order; blend once for each patch.
-std::vector<Stage const*> stages_of(Plan const& plan);
+/// The stages that run, in order; blend once for each patch.
+/// \param recipe with its defaults
+/// \param lines of the rivers' file
+std::vector<Stage const*> stages_of(Recipe const& recipe, RiverLines const& lines);
+
+/// The cells of a grid, or an estimate where it depends on a cluster that must be grown first.
+std::int64_t cells_of(Recipe const& recipe, std::optional<Grid> const& grid);
+
+/// What the stages that run are expected to take on one core of 2020, and last their files: "write".
+/// \param recipe with its defaults
+/// \param lines of the rivers' file
+Timings expected_times(Recipe const& recipe, RiverLines const& lines, std::int64_t cells);
 
 // Networks that branch by Tokunaga's law.
 

@@ -12,6 +12,7 @@
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/recipe/check_recipe.hpp>
+#include <thalweg/recipe/condition.hpp>
 #include <thalweg/recipe/recipe_files.hpp>
 #include <thalweg/recipe/recipe_keys.hpp>
 
@@ -228,7 +229,7 @@ Value value_in_toml(std::string const& text) {
 
 /// Leaves the size of cells to the DEM of surface.source where no key gives it.
 void settle_cell(Recipe& recipe) {
-    bool const of_lines = recipe.network && recipe.network->source == Source::lines;
+    bool const of_lines = from_lines(recipe);
     if (recipe.set_at.contains("grid.cell")) {
         return;
     }
@@ -436,7 +437,7 @@ void unset_key(Recipe& recipe, std::string const& path) {
 void require_effect(Recipe const& recipe, std::string const& path) {
     Target const target = target_of(path);
     Key const& key = key_at(target);
-    refuse_if<BadParameter>(!key.use.holds(recipe), "{} has no effect in this recipe: it needs {}", cut(path),
+    refuse_if<BadParameter>(!key.use(recipe), "{} has no effect in this recipe: it needs {}", cut(path),
                             key.use.lacks(recipe));
 }
 
@@ -445,7 +446,7 @@ std::vector<KeyValue> key_values(Recipe const& recipe) {
     for (Section const& section : all_sections()) {
         for (std::size_t item = 0; item < section.count(recipe); ++item) {
             for (Key const& key : all_keys()) {
-                if (key.part != &section || !key.use.holds(recipe)) {
+                if (key.part != &section || !key.use(recipe)) {
                     continue;
                 }
                 auto const value = key.take(recipe, item);
@@ -468,8 +469,7 @@ std::string toml_of(Section const& section, std::size_t item, Recipe const& reci
     std::string out;
     std::string brackets;
     for (Key const& key : all_keys()) {
-        auto const value =
-            key.part == &section && key.use.holds(recipe) ? key.take(recipe, item) : std::optional<Value>();
+        auto const value = key.part == &section && key.use(recipe) ? key.take(recipe, item) : std::optional<Value>();
         if (!value) {
             continue;
         }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include <thalweg/measure/peaks/orometry.hpp>
+#include <thalweg/recipe/condition.hpp>
 
 namespace thalweg::report {
 
@@ -83,9 +84,7 @@ std::optional<Sea> sea_of(recipe::Recipe const& recipe, make::Planform const& pl
     bool const is_cut = planform.land.cells() > 0;
     std::optional<surface::Edge> edge;
     if (recipe.surface && recipe.surface->method == recipe::Method::equilibrium) {
-        surface::Edge const by_sea = recipe.network && recipe.network->source == recipe::Source::lines
-                                         ? surface::Edge::mainland
-                                         : surface::Edge::coast;
+        surface::Edge const by_sea = recipe::from_lines(recipe) ? surface::Edge::mainland : surface::Edge::coast;
         edge = is_cut ? recipe.surface->equilibrium.edge.value_or(by_sea) : recipe.surface->equilibrium.edge;
     }
     return around_islands(sea_beside(edge), planform.land);

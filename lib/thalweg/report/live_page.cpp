@@ -13,6 +13,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/gdal/packed.hpp>
 #include <thalweg/make/planform.hpp>
+#include <thalweg/recipe/condition.hpp>
 #include <thalweg/recipe/recipe_keys.hpp>
 #include <thalweg/report/internal/page_template.hpp>
 #include <thalweg/report/page.hpp>
@@ -82,7 +83,7 @@ make::Made rivers_to_be(recipe::Recipe const& recipe, make::Planform const& plan
 }
 
 std::optional<ClusterArms> cluster_arms(recipe::Recipe const& recipe, std::int64_t side, Run const& run) {
-    if (!recipe.network || recipe.network->source != recipe::Source::dla) {
+    if (!recipe::from_cluster(recipe)) {
         return std::nullopt;
     }
     growth::Cluster const cluster = make::cluster_of(recipe, run);

@@ -16,6 +16,7 @@ enum class Device : std::uint8_t { cpu, opencl };
 template <class T> class Raster;
 class Kept;
 struct Finding;
+struct StageTime;
 
 /// Controls execution (progress, cancellation, threads, device). It never changes results.
 struct Run {
@@ -32,6 +33,9 @@ struct Run {
     /// Receives what was found, once each, also where a kept result says it; empty: log has a line of each that is
     /// printed always.
     std::function<void(Finding const&)> found;
+    /// Receives, before a terrain is made, its stages in order with the time that each is expected to take on one core;
+    /// the last, "write", is that of its files. Empty: nobody asks.
+    std::function<void(std::vector<StageTime> const&)> planned;
     std::stop_token stop;
     /// Receives a terrain while it is made: heights [m], first of larger cells, which what follows refines;
     /// is_finished: those of the result. Called by one thread at a time; empty: nobody looks on.

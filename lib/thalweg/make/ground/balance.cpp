@@ -20,6 +20,7 @@
 #include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/import/land_and_sea.hpp>
 #include <thalweg/network/vectorise/rasterise.hpp>
+#include <thalweg/recipe/condition.hpp>
 #include <thalweg/recipe/read_inputs.hpp>
 #include <thalweg/recipe/recipe_files.hpp>
 #include <thalweg/recipe/stages.hpp>
@@ -132,7 +133,7 @@ surface::Edge edge_of(GroundInput const& in, Mask const& land, Channels const& c
     if (in.gaps.cells() > 0 && !in.has_coastlines) {
         return network::gaps_are_sea(in.gaps, channels) ? surface::Edge::coast : surface::Edge::closed;
     }
-    bool const by_coastlines = in.recipe.network->source == recipe::Source::lines && in.planform.land.cells() > 0;
+    bool const by_coastlines = recipe::from_lines(in.recipe) && in.planform.land.cells() > 0;
     return by_coastlines ? surface::Edge::mainland : has_sea(land) ? surface::Edge::coast : surface::Edge::open;
 }
 
@@ -150,7 +151,7 @@ surface::EquilibriumParams params_of(recipe::Recipe const& recipe, std::optional
         params.relief_m = relief_m;
     } else if (params.bring_to_target) {
         params.mean_slope_deg = wanted.mean_slope_deg ? *wanted.mean_slope_deg : like->mean_slope_deg;
-    } else if (recipe.network->source == recipe::Source::lines) { // given heights have their own slope
+    } else if (recipe::from_lines(recipe)) { // given heights have their own slope
         params.mean_slope_deg = recipe::usual_slope_deg(recipe.grid.cell_m);
     }
     params.hillslope_m = wanted.hillslope_m > 0.0 ? wanted.hillslope_m : recipe.grid.cell_m;
@@ -160,7 +161,7 @@ surface::EquilibriumParams params_of(recipe::Recipe const& recipe, std::optional
     params.longest_wave_m = wanted.longest_wave_m;
     params.grain = wanted.grain;
     params.strike_deg = wanted.strike_deg;
-    bool const by_file = recipe.network->source == recipe::Source::lines; // the file includes all rivers that enter
+    bool const by_file = recipe::from_lines(recipe); // the file includes all rivers that enter
     params.region = wanted.region.value_or(params.region);
     params.inflow = !by_file;
     params.heads = by_file ? surface::Heads::kept : surface::Heads::cut;
