@@ -12,9 +12,11 @@
 #include <fmt/format.h>
 
 #include <thalweg/make/file_values.hpp>
+#include <thalweg/make/internal/assess.hpp>
 #include <thalweg/make/river_claims.hpp>
 #include <thalweg/measure/topology/topology.hpp>
 #include <thalweg/recipe/check_recipe.hpp>
+#include <thalweg/recipe/condition.hpp>
 #include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::make {
@@ -79,7 +81,7 @@ void warn_of_texture(recipe::Recipe const& recipe, Terrain const& terrain, Terra
     if (!terrain.ground.equilibrium() || terrain.grid.cells() < least_cells) {
         return;
     }
-    std::string const outside = unusual_relief(relief_rows(relief), recipe.network->source == recipe::Source::lines);
+    std::string const outside = unusual_relief(relief_rows(relief), recipe::from_lines(recipe));
     if (!outside.empty()) {
         stage_log.find({.kind = "unusual_relief",
                         .text = "measures of the relief lie outside those of the reference DEMs: " + outside,
@@ -306,9 +308,11 @@ bool Assessment::passed() const {
     return std::all_of(checks.begin(), checks.end(), [](Check const& c) { return c.ok; });
 }
 
-Assessment assess(recipe::Plan const& plan, Planform const& planform, Terrain const& terrain, Run const& run) {
+Assessment assess(AssessInput const& in, Run const& run) {
     StageLog stage_log(run);
-    recipe::Recipe const& recipe = plan.recipe;
+    recipe::Recipe const& recipe = in.recipe;
+    Planform const& planform = in.planform;
+    Terrain const& terrain = in.terrain;
     Assessment found{terrain.has_surface()
                          ? of_surface(recipe, terrain, stage_log, run)
                          : SurfaceMeasures{.laws = laws_of_terrain(terrain, terrain.grid.cells(), run)}};
@@ -323,31 +327,31 @@ Assessment assess(recipe::Plan const& plan, Planform const& planform, Terrain co
         }
     }
     warn_of_coarse_cells(terrain, stage_log, run);
-    if (recipe.network && recipe.network->source == recipe::Source::lines) {
-        found.given = given_length(plan.findings, planform, terrain);
+    if (recipe::from_lines(recipe)) {
+        found.given = given_length(in.found_in_lines, planform, terrain);
         found.checks.push_back(
-            length_check(recipe.network->lines, plan.lines.name, *found.given, terrain.grid, stage_log));
+            length_check(recipe.network->lines, in.lines.name, *found.given, terrain.grid, stage_log));
     }
     if (recipe.network) {
-        found.given_heights = given_heights(*recipe.network, plan.lines, planform, terrain);
+        found.given_heights = given_heights(*recipe.network, in.lines, planform, terrain);
     }
     if (found.given_heights) {
-        warn_of_heights(plan.lines.name, *found.given_heights, stage_log);
+        warn_of_heights(in.lines.name, *found.given_heights, stage_log);
     }
-    found.given_features = given_features(recipe, plan.points, plan.ridge_lines, terrain);
+    found.given_features = given_features(recipe, in.points, in.ridges, terrain);
     if (found.given_features) {
         stage_log.find({.kind = "features", .text = line_of(*found.given_features)});
         warn_of_features(*found.given_features, stage_log);
     }
     if (terrain.has_surface() && found.given) {
-        found.given_areas = given_areas(plan.lines, planform, terrain);
+        found.given_areas = given_areas(in.lines, planform, terrain);
     }
     if (found.given_areas) {
         stage_log.find({.kind = "areas", .text = line_of(*found.given_areas)});
     }
     if (recipe::stage::compare.runs(recipe)) {
         found.against = stage_log.stage(recipe::stage::compare.name, [&] {
-            return compare_with_dem(plan.against, recipe.output.against, terrain, run);
+            return compare_with_dem(in.against, recipe.output.against, terrain, run);
         });
         stage_log.say(line_of(*found.against));
     }

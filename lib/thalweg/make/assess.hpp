@@ -8,6 +8,8 @@
 
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/core/run/stage_log.hpp>
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/make/against.hpp>
 #include <thalweg/make/features.hpp>
@@ -18,7 +20,6 @@
 #include <thalweg/measure/drainage/certificate.hpp>
 #include <thalweg/measure/relief/hypsometry.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
-#include <thalweg/recipe/plan.hpp>
 
 namespace thalweg::make {
 
@@ -57,11 +58,5 @@ struct Assessment : SurfaceMeasures {
     /// \return whether every check is ok
     bool passed() const;
 };
-
-/// Measures and checks land and rivers.
-/// \param planform rivers made of it
-/// \param terrain what came of them
-/// \return measures and checks
-Assessment assess(recipe::Plan const& plan, Planform const& planform, Terrain const& terrain, Run const& run = {});
 
 } // namespace thalweg::make

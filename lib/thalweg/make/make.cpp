@@ -2,9 +2,64 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/make/make.hpp>
 
+#include <thalweg/make/internal/assess.hpp>
+#include <thalweg/make/internal/ground.hpp>
+#include <thalweg/make/internal/planform.hpp>
+#include <thalweg/recipe/recipe_files.hpp>
+#include <thalweg/recipe/stage_recipes.hpp>
 #include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::make {
+
+// Here, and nowhere below, a plan is taken apart: each step is given what it reads.
+
+Planform make_planform(recipe::Plan const& plan, Run const& run) {
+    if (!plan.recipe.network) {
+        return {};
+    }
+    DrawnRivers rivers = draw_rivers({.recipe = recipe::recipe_for_planform(plan.recipe),
+                                      .grid = plan.grid,
+                                      .lines = plan.lines,
+                                      .line_dem = plan.line_dem,
+                                      .raster = plan.raster,
+                                      .region = plan.region,
+                                      .tree = plan.tree,
+                                      .forest = plan.forest,
+                                      .gaps = plan.land},
+                                     run);
+    Planform planform = std::move(rivers.planform);
+    std::vector<Finding> const conversions = recipe::conversions(plan.recipe, planform.grid, run); // of all its files
+    planform.findings.insert(planform.findings.begin() + static_cast<std::ptrdiff_t>(rivers.of_source),
+                             conversions.begin(), conversions.end());
+    run.report(planform.findings);
+    return planform;
+}
+
+Terrain make_terrain(recipe::Plan const& plan, Planform const& planform, Run const& run) {
+    return draw_terrain({.recipe = plan.recipe,
+                         .grid = plan.grid,
+                         .surface = {.recipe = recipe::recipe_for_surface(plan.recipe),
+                                     .planform = planform,
+                                     .points = plan.points,
+                                     .ridges = plan.ridge_lines,
+                                     .raster = plan.raster,
+                                     .like = plan.like,
+                                     .gaps = plan.land,
+                                     .has_coastlines = recipe::stage::sea.runs(plan.recipe, plan.lines)}},
+                        run);
+}
+
+Assessment assess(recipe::Plan const& plan, Planform const& planform, Terrain const& terrain, Run const& run) {
+    return assess({.recipe = plan.recipe,
+                   .planform = planform,
+                   .terrain = terrain,
+                   .lines = plan.lines,
+                   .found_in_lines = plan.findings,
+                   .points = plan.points,
+                   .ridges = plan.ridge_lines,
+                   .against = plan.against},
+                  run);
+}
 
 recipe::Recipe recipe_of(recipe::Plan const& plan, Terrain const& terrain) {
     recipe::Recipe recipe = plan.recipe;

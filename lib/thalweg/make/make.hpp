@@ -23,6 +23,22 @@ struct Made {
     recipe::Recipe recipe; ///< recipe_of() these
 };
 
+/// Grows or imports the rivers of a plan: prunes short branches, carries outlets to where rivers may end, bends and
+/// types the rivers.
+/// \return the same rivers for the same plan, whatever the Run; none where the plan has no [network]
+Planform make_planform(recipe::Plan const& plan, Run const& run = {});
+
+/// Draws the terrain of a plan around its rivers; or from numbers and points alone where it has none.
+/// \param planform the rivers of the plan; make_planform()
+/// \return the same terrain for the same plan and rivers, whatever the Run.
+Terrain make_terrain(recipe::Plan const& plan, Planform const& planform, Run const& run = {});
+
+/// Measures and checks land and rivers.
+/// \param planform rivers of the plan
+/// \param terrain what came of them
+/// \return measures and checks
+Assessment assess(recipe::Plan const& plan, Planform const& planform, Terrain const& terrain, Run const& run = {});
+
 /// Returns the fully resolved recipe; running it reproduces the terrain.
 /// \param plan of the terrain
 /// \param terrain made from the plan

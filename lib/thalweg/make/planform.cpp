@@ -16,7 +16,6 @@
 #include <thalweg/network/planform/carry_outlets.hpp>
 #include <thalweg/network/planform/meander.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
-#include <thalweg/recipe/recipe_files.hpp>
 #include <thalweg/recipe/stage_recipes.hpp>
 #include <thalweg/recipe/stages.hpp>
 
@@ -246,12 +245,6 @@ TimedSource source_of(RiversInput const& in, Run const& run) {
         });
 }
 
-/// Rivers, and how many of their findings are the source's.
-struct DrawnRivers {
-    Planform planform;
-    std::size_t of_source;
-};
-
 /// The rivers of a plan that has any.
 DrawnRivers drawn(RiversInput const& in, Run const& run) {
     recipe::NetworkRecipe const& wanted = *in.recipe.network;
@@ -292,31 +285,13 @@ DrawnRivers drawn(RiversInput const& in, Run const& run) {
 
 } // namespace
 
-Planform make_planform(recipe::Plan const& plan, Run const& run) {
-    if (!plan.recipe.network) {
-        return {};
-    }
-    RiversInput const in{.recipe = recipe::recipe_for_planform(plan.recipe),
-                         .grid = plan.grid,
-                         .lines = plan.lines,
-                         .line_dem = plan.line_dem,
-                         .raster = plan.raster,
-                         .region = plan.region,
-                         .tree = plan.tree,
-                         .forest = plan.forest,
-                         .gaps = plan.land};
-    DrawnRivers made = kept_or_made(
+DrawnRivers draw_rivers(RiversInput const& in, Run const& run) {
+    return kept_or_made(
         run, "planform", [&] { return recipe::cache_key(in.recipe); }, [&] { return drawn(in, run); },
         [](DrawnRivers const& kept) {
             constexpr std::int64_t copies = 4;
             return copies * bytes_of(kept.planform.network) + kept.planform.land.cells();
         });
-    Planform planform = std::move(made.planform);
-    std::vector<Finding> const conversions = recipe::conversions(plan.recipe, planform.grid, run); // of all its files
-    planform.findings.insert(planform.findings.begin() + static_cast<std::ptrdiff_t>(made.of_source),
-                             conversions.begin(), conversions.end());
-    run.report(planform.findings);
-    return planform;
 }
 
 } // namespace thalweg::make

@@ -9,12 +9,14 @@
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/river_files.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/core/run/stage_log.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/growth/dla/grow_dla.hpp>
 #include <thalweg/make/line_sources.hpp>
 #include <thalweg/network/elevation/river_types.hpp>
 #include <thalweg/network/order/order.hpp>
-#include <thalweg/recipe/plan.hpp>
+#include <thalweg/recipe/recipe.hpp>
 
 namespace thalweg::make {
 
@@ -60,11 +62,6 @@ struct Planform {
     std::vector<Finding> findings; ///< on rivers as they were grown, imported and carried to the border
     Timings timings_s;
 };
-
-/// Grows or imports the rivers of a plan: prunes short branches, carries outlets to where rivers may end, bends and
-/// types the rivers.
-/// \return the same rivers for the same plan, whatever the Run; none where the plan has no [network]
-Planform make_planform(recipe::Plan const& plan, Run const& run = {});
 
 /// The cluster of a recipe whose rivers are a branch of one.
 /// \internal

@@ -53,17 +53,10 @@ Surface undrained(SurfaceInput const& from, std::optional<Grid> const& planned, 
 }
 
 /// The same, kept for the next terrain that is made from it.
-Surface drawn(recipe::Plan const& plan, Planform const& planform, Run const& run) {
-    SurfaceInput const from{.recipe = recipe::recipe_for_surface(plan.recipe),
-                            .planform = planform,
-                            .points = plan.points,
-                            .ridges = plan.ridge_lines,
-                            .raster = plan.raster,
-                            .like = plan.like,
-                            .gaps = plan.land,
-                            .has_coastlines = recipe::stage::sea.runs(plan.recipe, plan.lines)};
+Surface drawn(TerrainInput const& in, Run const& run) {
     return kept_or_made(
-        run, "surface", [&] { return recipe::cache_key(from.recipe); }, [&] { return undrained(from, plan.grid, run); },
+        run, "surface", [&] { return recipe::cache_key(in.surface.recipe); },
+        [&] { return undrained(in.surface, in.grid, run); },
         [](Surface const& made) {
             constexpr std::int64_t of_cell = 16; // heights, valley, levels
             return of_cell * made.ground.dem.cells();
@@ -207,14 +200,15 @@ RiversInBed with_side_valleys(RiversInBed made, recipe::NetworkRecipe const& wan
     return made;
 }
 
-Terrain terrain_with_surface(recipe::Plan const& plan, Planform const& planform, Run const& run) {
-    recipe::Recipe const& recipe = plan.recipe;
+Terrain terrain_with_surface(TerrainInput const& in, Run const& run) {
+    recipe::Recipe const& recipe = in.recipe;
+    Planform const& planform = in.surface.planform;
     bool const has_rivers = recipe.network.has_value();
     StageLog stage_log(run);
     if (!has_rivers) { // else they are among the rivers' findings
-        stage_log.find(recipe::conversions(recipe, *plan.grid, run));
+        stage_log.find(recipe::conversions(recipe, *in.grid, run));
     }
-    Surface surface = drawn(plan, planform, run);
+    Surface surface = drawn(in, run);
     stage_log.add(surface.notes.timings_s);
     stage_log.find(surface.notes.findings);
     if (surface.ground.equilibrium() == nullptr) { // in equilibrium it was seen, and drains as it is
@@ -236,7 +230,7 @@ Terrain terrain_with_surface(recipe::Plan const& plan, Planform const& planform,
     ground.dem = std::move(drained.dem);
     ground.land = recipe::on_raster(recipe) ? Mask{} : planform.land; // what has no data need not be sea
     return {
-        .grid = has_rivers ? planform.grid : *plan.grid,
+        .grid = has_rivers ? planform.grid : *in.grid,
         .ground = std::move(ground),
         .rivers = std::move(made.rivers),
         .bed = std::move(made.bed),
@@ -245,9 +239,10 @@ Terrain terrain_with_surface(recipe::Plan const& plan, Planform const& planform,
 }
 
 /// Rivers that have heights of their own, where the recipe asks for no surface.
-Terrain rivers_alone(recipe::Plan const& plan, Planform const& planform, Run const& run) {
+Terrain rivers_alone(TerrainInput const& in, Run const& run) {
+    Planform const& planform = in.surface.planform;
     StageLog stage_log(run);
-    RaisedRivers raised = raise_rivers(plan.recipe, plan.raster, planform, stage_log, run);
+    RaisedRivers raised = raise_rivers(in.recipe, in.surface.raster, planform, stage_log, run);
     Terrain terrain;
     terrain.grid = planform.grid;
     terrain.ground.land = planform.land;
@@ -263,9 +258,9 @@ Terrain rivers_alone(recipe::Plan const& plan, Planform const& planform, Run con
 
 } // namespace
 
-Terrain make_terrain(recipe::Plan const& plan, Planform const& planform, Run const& run) {
-    bool const rivers_only = plan.recipe.network && !plan.recipe.surface;
-    Terrain terrain = rivers_only ? rivers_alone(plan, planform, run) : terrain_with_surface(plan, planform, run);
+Terrain draw_terrain(TerrainInput const& in, Run const& run) {
+    bool const rivers_only = in.recipe.network && !in.recipe.surface;
+    Terrain terrain = rivers_only ? rivers_alone(in, run) : terrain_with_surface(in, run);
     run.report(terrain.notes.findings);
     return terrain;
 }

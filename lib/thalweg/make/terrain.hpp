@@ -9,6 +9,7 @@
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/core/run/stage_log.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/flow/condition.hpp>
@@ -16,7 +17,6 @@
 #include <thalweg/make/ground.hpp>
 #include <thalweg/make/planform.hpp>
 #include <thalweg/make/rivers.hpp>
-#include <thalweg/recipe/plan.hpp>
 
 namespace thalweg::make {
 
@@ -59,10 +59,5 @@ struct Terrain {
     /// \return whether it has a surface; else the recipe asks for rivers alone
     bool has_surface() const { return ground.dem.cells() > 0; }
 };
-
-/// Draws the terrain of a plan around its rivers; or from numbers and points alone where it has none.
-/// \param planform the rivers of the plan; make_planform()
-/// \return the same terrain for the same plan and rivers, whatever the Run.
-Terrain make_terrain(recipe::Plan const& plan, Planform const& planform, Run const& run = {});
 
 } // namespace thalweg::make

@@ -30,6 +30,16 @@ struct SurfaceInput {
     bool has_coastlines = false; ///< those of the rivers' file bound the land
 };
 
+/// What a terrain is made from.
+struct TerrainInput {
+    recipe::Recipe const& recipe;
+    std::optional<Grid> const& grid; ///< empty: that of the rivers
+    SurfaceInput surface;
+};
+
+/// Draws the terrain of a recipe. make_terrain() of a plan's values.
+Terrain draw_terrain(TerrainInput const& in, Run const& run);
+
 /// The same on its grid, with the rivers' heights.
 struct GroundInput : SurfaceInput {
     Grid const& grid;           ///< of the surface; without rivers of coarser cells, where detail is added between them

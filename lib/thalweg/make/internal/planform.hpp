@@ -27,6 +27,15 @@ struct RiversInput {
     Mask const& gaps; ///< Plan::land
 };
 
+/// Rivers, and how many of their findings are their source's.
+struct DrawnRivers {
+    Planform planform;
+    std::size_t of_source = 0;
+};
+
+/// The rivers of a recipe that has any, kept for the next one that reads the same keys.
+DrawnRivers draw_rivers(RiversInput const& in, Run const& run);
+
 /// A network as its source gives it, before it is pruned, carried, bent and typed.
 struct SourceRivers {
     StreamNetwork network;
