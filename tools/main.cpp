@@ -21,10 +21,12 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/memory.hpp>
 #include <thalweg/core/run/messages.hpp>
+#include <thalweg/core/run/stage_log.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/report/report.hpp>
 #include <thalweg/solver/opencl/devices.hpp>
@@ -256,6 +258,15 @@ void prepare(Session& session, Terminal& terminal) {
     session.run.progress = &Terminal::progress;
     session.run.progress_arg = &terminal;
     session.run.log = [&terminal](std::string_view line) { terminal.line(line); };
+    if (session.progress) {
+        session.run.planned = [&terminal](std::vector<StageTime> const& stages) {
+            auto json = nlohmann::ordered_json::array();
+            for (StageTime const& one : stages) {
+                json.push_back({{"stage", one.stage}, {"seconds", one.wall_s}});
+            }
+            terminal.data(nlohmann::ordered_json{{"stages", json}}.dump());
+        };
+    }
     session.run.found = [&session, &terminal](Finding const& finding) {
         session.findings.push_back(finding);
         bool const is_printed = session.verbose || finding.kind.row().printed == Printed::always;

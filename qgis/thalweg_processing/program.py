@@ -27,16 +27,11 @@ ENDS_WITHIN = 5  # [s] from SIGINT to SIGKILL
 WHERE = "Settings > Options > Processing > Providers > thalweg"
 NO_WINDOW = getattr(subprocess, "CREATE_NO_WINDOW", 0)  # of Windows, which opens a console for each program
 
-# The part of a whole run [%] that a stage takes, in their order; others leave the bar where it is.
+# The part of a whole run [%] that a stage takes, in their order; others leave the bar where it is. Runs that make a terrain say
+# themselves what their stages take.
 STAGES: dict[str, dict[str, tuple[int, int]]] = {
-    "make": {"shape": (0, 1), "read": (0, 3), "raster": (0, 3), "grow": (3, 14), "thin": (14, 15), "trace": (15, 16),
-             "embed": (14, 16), "adopt": (14, 16), "sea": (16, 17), "prune": (17, 18), "meander": (18, 20), "raise": (20, 21),
-             "channels": (20, 21), "ridge": (21, 22), "scatter": (21, 22), "tin": (21, 25), "valleys": (25, 48),
-             "fill": (22, 50),
-             "land": (5, 48), "project": (48, 50), "detail": (50, 52), "blend": (50, 54), "carve": (54, 55), "drain": (55, 57),
-             "measure": (57, 60), "catchments": (60, 61), "certify": (61, 63), "ridges": (63, 64), "areas": (64, 65),
-             "laws": (65, 66), "relief": (66, 75), "check": (75, 76), "compare": (76, 80), "contours": (80, 85),
-             "outline": (90, 92)},
+    "make": {},
+    "rebuild": {},
     "check": {"adopt": (0, 30), "check": (30, 80), "read": (80, 90), "write": (90, 100)},
     "convert": {"read": (0, 60), "write": (60, 100)},
     "measure": {"read": (0, 40), "outline": (60, 90)},
@@ -45,7 +40,6 @@ STAGES: dict[str, dict[str, tuple[int, int]]] = {
     "draw": {"read": (0, 10), "adopt": (10, 15), "check": (15, 30), "map": (30, 50), "contours": (50, 55), "profile": (55, 65),
              "wireframe": (65, 90)},
 }
-STAGES["rebuild"] = STAGES["make"]
 
 
 class ProgramError(Exception):
@@ -180,7 +174,7 @@ class _Listener:
     def __init__(self, command: str, folder: str, feedback: QgsProcessingFeedback, keys: frozenset[str]) -> None:
         self.folder = os.path.join(folder, "")  # a layer that was written to it is named without it
         self.feedback = feedback
-        self.parts = STAGES.get(command, {})
+        self.parts: dict[str, tuple[float, float]] = dict(STAGES.get(command, {}))
         self.shown = 0.0
         self.keys = keys
         self.error: list[str] = []
@@ -193,6 +187,8 @@ class _Listener:
                 state = json.loads(line)
                 if "finding" in state:
                     self.tell(state["finding"])
+                elif "stages" in state:
+                    self.plan(state["stages"])
                 else:
                     self.move(str(state["stage"]), float(state["share"]))
                 return
@@ -213,6 +209,15 @@ class _Listener:
             self.feedback.pushWarning(in_qgis(words, self.keys))
         elif finding["severity"] == "note":
             self.feedback.pushInfo(f"{finding['kind'].replace('_', ' ')}: {in_qgis(words, self.keys)}")
+
+    def plan(self, stages: list[dict[str, Any]]) -> None:
+        """Take the part of each stage from the seconds that it is expected to take; of stages of one name, of them all."""
+        whole = sum(float(stage["seconds"]) for stage in stages) or 1.0
+        begin = 0.0
+        for stage in stages:
+            end = min(begin + 100.0 * float(stage["seconds"]) / whole, 100.0)
+            self.parts[stage["stage"]] = (self.parts.get(stage["stage"], (begin, end))[0], end)
+            begin = end
 
     def move(self, stage: str, share: float) -> None:
         begin, end = self.parts.get(stage, (0, 0))

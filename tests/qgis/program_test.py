@@ -26,7 +26,8 @@ REPORT = ('{"findings": [], "mended": [], "notes": [], "written": [], '
 class Said(QgsProcessingFeedback):
     def __init__(self):
         super().__init__()
-        self.warnings, self.lines, self.commands = [], [], []
+        self.warnings, self.lines, self.commands, self.shares = [], [], [], []
+        self.progressChanged.connect(self.shares.append)
 
     def pushWarning(self, text):
         self.warnings.append(text)
@@ -202,6 +203,26 @@ class Wrong(WithSetting):
         said.setProgressText = self.fail  # the dialog writes it to the log
         run("check", {"NETWORK": str(COAST)}, said)
         self.assertEqual(said.lines, ["read: 60 lines of a  b.gpkg, 0.1 s"])
+
+    def test_the_bar_follows_what_a_run_expects(self):
+        """Stages of one name share the time of both; one that was not expected leaves the bar where it is."""
+        planned = [{"stage": name, "seconds": seconds} for name, seconds in (("grow", 1), ("blend", 2), ("blend", 2), ("write", 5))]
+        lines = [{"stage": "read", "share": 1}, {"stages": planned}, {"stage": "grow", "share": 0.5}, {"stage": "blend", "share": 0.5},
+                 {"stage": "contours", "share": 1}, {"stage": "write", "share": 1}]
+        said = Said()
+        listener = program._Listener("make", str(self.folder), said, frozenset())
+        for line in lines:
+            listener.hear(json.dumps(line))
+        self.assertEqual([share for share in said.shares if share], [5.0, 30.0, 100.0])
+        self.assertEqual(said.lines, [])
+
+    def test_the_bar_of_a_run_ends_full(self):
+        said = Said()
+        run("make", {"WIDTH": 64, "HEIGHT": 64, "OUTPUT": str(self.folder / "out")}, said)
+        shares = [share for share in said.shares if share]
+        self.assertGreater(len(shares), 10)
+        self.assertEqual(shares, sorted(shares))
+        self.assertGreater(shares[-1], 99.9)
 
     def test_findings_are_those_of_the_report(self):
         """Word for word, with what to do; a river file with a height of 0 has two warnings."""

@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cstdlib>
 #include <regex>
 #include <set>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -96,9 +98,18 @@ TEST(Manners, ProgressForOtherPrograms) {
     Workplace const place;
     Outcome const o = expect_run(place, small + "out --progress", 0); // with -q
     std::set<std::string> ended;
+    std::vector<std::string> planned;
     std::istringstream lines(o.err);
     for (std::string line; std::getline(lines, line);) {
         auto const said = nlohmann::json::parse(line); // nothing else is there
+        if (said.contains("stages")) {                 // once
+            EXPECT_TRUE(planned.empty() && said.size() == 1) << line;
+            for (auto const& one : said["stages"]) {
+                planned.push_back(one["stage"]);
+                EXPECT_GT(one["seconds"], 0.0) << line;
+            }
+            continue;
+        }
         EXPECT_EQ(said.size(), 2U) << line;
         EXPECT_GE(said["share"], 0.0);
         EXPECT_LE(said["share"], 1.0);
@@ -108,7 +119,9 @@ TEST(Manners, ProgressForOtherPrograms) {
     }
     for (char const* stage : {"grow", "thin", "meander", "write"}) {
         EXPECT_TRUE(ended.contains(stage)) << stage;
+        EXPECT_EQ(std::ranges::count(planned, std::string(stage)), 1) << stage;
     }
+    EXPECT_EQ(planned.back(), "write");
     Outcome const mixed = expect_run(place, "check out --progress", 0);
     EXPECT_TRUE(test::has(mixed.err, "{\"stage\": \"", "\n"));
 }
