@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: the thalweg authors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The rules of the house that no compiler keeps. Prints one line a violation; exit status 1 when there is one.
-Usage: rules.py [ROOT]; rules.py --show writes the functions that docs/pipeline.md shows as they are."""
+Usage: rules.py [ROOT]"""
 import collections
 import pathlib
 import re
@@ -275,36 +275,6 @@ def check_text(name, lines):
             yield number, f"{found[0]}: changes bits from machine to machine"
 
 
-SHOWN = re.compile(r"(?m)^From `([^`]+)`:\n\n```cpp\n(.*?)```\n", re.S)
-
-
-def function_of(source, head):
-    """The definition in a source that begins with the first line of what a page shows; "" where there is none."""
-    begin = source.find("\n" + head + "\n") + 1
-    return source[begin:source.index("\n}\n", begin) + 3] if begin else ""
-
-
-def check_shown(root):
-    """Functions that docs/pipeline.md shows are those of the sources, word for word."""
-    page = root / "docs/pipeline.md"
-    text = page.read_text("utf-8") if page.exists() else ""
-    for found in SHOWN.finditer(text):
-        name, shown = found[1], found[2]
-        function = function_of((root / name).read_text("utf-8"), shown.split("\n", 1)[0])
-        if function != shown:
-            line = text[:found.start()].count("\n") + 1
-            yield f"docs/pipeline.md:{line}: not as in {name}; tests/house/rules.py --show writes it again"
-
-
-def show(root):
-    """Writes the functions of docs/pipeline.md as they are in the sources."""
-    page = root / "docs/pipeline.md"
-    def as_it_is(found):
-        function = function_of((root / found[1]).read_text("utf-8"), found[2].split("\n", 1)[0])
-        return found[0].replace(found[2], function or found[2])
-    page.write_text(SHOWN.sub(as_it_is, page.read_text("utf-8")), "utf-8")
-
-
 def violations(root):
     """Every violation under a folder, as printable lines."""
     root = pathlib.Path(root)
@@ -322,12 +292,10 @@ def violations(root):
         if name.endswith(CPP) and name.startswith("lib/"):
             sources.append((name, lines))
         found += [f"{name}:{number}: {text}" for number, text in sorted(faults)]
-    return found + list(check_types(sources)) + list(check_umbrellas(sources)) + list(check_shown(root))
+    return found + list(check_types(sources)) + list(check_umbrellas(sources))
 
 
 if __name__ == "__main__":
-    if sys.argv[1:] == ["--show"]:
-        show(pathlib.Path("."))
-    faults = violations(sys.argv[1] if len(sys.argv) > 1 and sys.argv[1] != "--show" else ".")
+    faults = violations(sys.argv[1] if len(sys.argv) > 1 else ".")
     print("\n".join(faults) if faults else "every rule is kept")
     sys.exit(1 if faults else 0)

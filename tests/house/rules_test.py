@@ -140,21 +140,6 @@ class Rules(unittest.TestCase):
             (place / "core.hpp").write_text(SPDX + "#include <thalweg/core/grid.hpp>\n")
             self.assertEqual(rules.violations(folder), [])
 
-    def test_a_page_that_shows_another_function_is_found_and_mended(self):
-        with tempfile.TemporaryDirectory() as folder:
-            root = pathlib.Path(folder)
-            (root / "docs").mkdir()
-            (root / "a.cpp").write_text(SPDX + "\nint one() {\n    return 1;\n}\n")
-            page = root / "docs/pipeline.md"
-            page.write_text("From `a.cpp`:\n\n```cpp\nint one() {\n    return 2;\n}\n```\n")
-            said = rules.violations(folder)
-            self.assertEqual(len(said), 1, said)
-            self.assertIn("docs/pipeline.md:1: not as in a.cpp", said[0])
-            rules.show(root)
-            self.assertIn("return 1;", page.read_text())
-            self.assertEqual(rules.violations(folder), [])
-        self.assertEqual(len(rules.SHOWN.findall((ROOT / "docs/pipeline.md").read_text())), 7)
-
     def test_missing_spdx_lines_are_found(self):
         for name, text in [("a.cpp", "int main() {}"), ("scripts/x", "#!/bin/sh"), ("b.hpp", SPDX.splitlines()[0]), ("c.py", "")]:
             with self.subTest(name=name), tempfile.TemporaryDirectory() as folder:
