@@ -76,70 +76,6 @@ void require_simple(Tin const& mesh, std::vector<std::uint32_t> const& ring, std
     }
 }
 
-} // namespace
-
-Tin facing_up(Tin mesh, std::string const& name) {
-    std::size_t down = 0;
-    std::size_t first_down = 0;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        auto const& t = mesh.triangles[i];
-        for (std::uint32_t const v : t) {
-            refuse_if<BadInput>(v >= mesh.vertices.size(),
-                                "blend.facing_up: {}: triangle {} names a vertex that is not there", name, i + 1);
-            Vec3 const& p = mesh.vertices[v];
-            refuse_if<BadInput>(!is_finite(p), "blend.facing_up: {}: vertex {} is not finite", name, v + 1);
-        }
-        int const side = geometry::side_of_line(in_plan(mesh.vertices[t[0]]), in_plan(mesh.vertices[t[1]]),
-                                                in_plan(mesh.vertices[t[2]]));
-        if (side == 0) {
-            throw BadInput(fmt::format("blend.facing_up: {}: triangle {} at {} has no area in plan; only meshes with "
-                                       "one height at each place can be blended",
-                                       name, i + 1, place(mesh.vertices[t[0]])));
-        }
-        if (side < 0 && down++ == 0) {
-            first_down = i;
-        }
-    }
-    if (down == 0) {
-        return mesh;
-    }
-    if (down < mesh.triangles.size()) {
-        throw BadInput(fmt::format(
-            "blend.facing_up: {} is folded in plan: {} of {} triangles face down, triangle {} at "
-            "{} first; only meshes with one height at each place can be blended",
-            name, down, mesh.triangles.size(), first_down + 1, place(mesh.vertices[mesh.triangles[first_down][0]])));
-    }
-    for (auto& t : mesh.triangles) {
-        std::swap(t[1], t[2]);
-    }
-    return mesh;
-}
-
-std::vector<std::uint32_t> outline_of(Tin const& mesh, std::string const& name, Run const& run) {
-    std::map<std::uint32_t, std::uint32_t> const next = boundary(mesh, name);
-    refuse_if<BadInput>(next.empty(), "blend.outline_of: {} has no triangles", name);
-    std::vector<std::uint32_t> ring;
-    std::uint32_t v = next.begin()->first;
-    do {
-        ring.push_back(v);
-        v = next.at(v);
-    } while (v != ring.front());
-    if (ring.size() < next.size()) {
-        std::vector<std::uint32_t> sorted = ring;
-        std::sort(sorted.begin(), sorted.end());
-        auto const other = std::find_if(next.begin(), next.end(), [&](auto const& e) {
-            return !std::binary_search(sorted.begin(), sorted.end(), e.first);
-        });
-        throw BadInput(fmt::format("blend.outline_of: {} has several boundaries, one through {} and one through {}; "
-                                   "close its holes, and give one part at a time",
-                                   name, place(mesh.vertices[ring.front()]), place(mesh.vertices[other->first])));
-    }
-    require_simple(mesh, ring, name, run);
-    return ring;
-}
-
-namespace {
-
 using Triangle = std::array<std::uint32_t, 3>;
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
@@ -399,56 +335,6 @@ void require_whole(Tin const& target, std::vector<Triangle> const& near, Overlay
                         before_cut, after_cut);
 }
 
-} // namespace
-
-CutTin cut_tin(Tin const& target, std::vector<Vec2> const& outline, Run const& run) {
-    Parted const parted = part(target, outline);
-    if (parted.near.empty()) {
-        throw BadInput(
-            fmt::format("blend.cut_tin: the patch at ({}, {}) lies off the target", outline.at(0).x, outline.at(0).y));
-    }
-    Overlay const overlay = overlay_of(target, parted.near, outline, run);
-    std::vector<Where> const where = sides_of(overlay);
-    require_whole(target, parted.near, overlay, where);
-    std::vector<Triangle> const& triangles = overlay.mesh.tin.triangles;
-    Numbers numbers(target, overlay);
-    for (Triangle const& t : parted.far) {
-        std::for_each(t.begin(), t.end(), [&](std::uint32_t v) { numbers.use_target(v); });
-    }
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-        if (where[i].in_target && !where[i].in_region) {
-            std::for_each(triangles[i].begin(), triangles[i].end(), [&](std::uint32_t v) { numbers.use_overlay(v); });
-        }
-    }
-    for (std::size_t i = overlay.edges.size(); i < overlay.mesh.chains.size(); ++i) {
-        for (std::uint32_t const v : overlay.mesh.chains[i]) {
-            numbers.use_overlay(v);
-        }
-    }
-    CutTin cut;
-    numbers.give_numbers(cut);
-    cut.removed = static_cast<std::int64_t>(target.vertices.size()) -
-                  (static_cast<std::int64_t>(cut.tin.vertices.size()) - cut.added);
-    for (Triangle const& t : parted.far) {
-        cut.tin.triangles.push_back({numbers.of_target(t[0]), numbers.of_target(t[1]), numbers.of_target(t[2])});
-    }
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-        if (where[i].in_target && !where[i].in_region) {
-            Triangle const& t = triangles[i];
-            cut.tin.triangles.push_back({numbers.of_overlay(t[0]), numbers.of_overlay(t[1]), numbers.of_overlay(t[2])});
-        }
-    }
-    for (std::size_t i = overlay.edges.size(); i < overlay.mesh.chains.size(); ++i) {
-        auto& side = cut.sides.emplace_back();
-        for (std::uint32_t const v : overlay.mesh.chains[i]) {
-            side.push_back(numbers.of_overlay(v));
-        }
-    }
-    return cut;
-}
-
-namespace {
-
 using Inserted = std::vector<std::uint32_t>;
 
 constexpr std::uint32_t elsewhere = std::numeric_limits<std::uint32_t>::max();
@@ -549,6 +435,112 @@ void require_area(Tin const& tin) {
 }
 
 } // namespace
+
+Tin facing_up(Tin mesh, std::string const& name) {
+    std::size_t down = 0;
+    std::size_t first_down = 0;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        auto const& t = mesh.triangles[i];
+        for (std::uint32_t const v : t) {
+            refuse_if<BadInput>(v >= mesh.vertices.size(),
+                                "blend.facing_up: {}: triangle {} names a vertex that is not there", name, i + 1);
+            Vec3 const& p = mesh.vertices[v];
+            refuse_if<BadInput>(!is_finite(p), "blend.facing_up: {}: vertex {} is not finite", name, v + 1);
+        }
+        int const side = geometry::side_of_line(in_plan(mesh.vertices[t[0]]), in_plan(mesh.vertices[t[1]]),
+                                                in_plan(mesh.vertices[t[2]]));
+        if (side == 0) {
+            throw BadInput(fmt::format("blend.facing_up: {}: triangle {} at {} has no area in plan; only meshes with "
+                                       "one height at each place can be blended",
+                                       name, i + 1, place(mesh.vertices[t[0]])));
+        }
+        if (side < 0 && down++ == 0) {
+            first_down = i;
+        }
+    }
+    if (down == 0) {
+        return mesh;
+    }
+    if (down < mesh.triangles.size()) {
+        throw BadInput(fmt::format(
+            "blend.facing_up: {} is folded in plan: {} of {} triangles face down, triangle {} at "
+            "{} first; only meshes with one height at each place can be blended",
+            name, down, mesh.triangles.size(), first_down + 1, place(mesh.vertices[mesh.triangles[first_down][0]])));
+    }
+    for (auto& t : mesh.triangles) {
+        std::swap(t[1], t[2]);
+    }
+    return mesh;
+}
+
+std::vector<std::uint32_t> outline_of(Tin const& mesh, std::string const& name, Run const& run) {
+    std::map<std::uint32_t, std::uint32_t> const next = boundary(mesh, name);
+    refuse_if<BadInput>(next.empty(), "blend.outline_of: {} has no triangles", name);
+    std::vector<std::uint32_t> ring;
+    std::uint32_t v = next.begin()->first;
+    do {
+        ring.push_back(v);
+        v = next.at(v);
+    } while (v != ring.front());
+    if (ring.size() < next.size()) {
+        std::vector<std::uint32_t> sorted = ring;
+        std::sort(sorted.begin(), sorted.end());
+        auto const other = std::find_if(next.begin(), next.end(), [&](auto const& e) {
+            return !std::binary_search(sorted.begin(), sorted.end(), e.first);
+        });
+        throw BadInput(fmt::format("blend.outline_of: {} has several boundaries, one through {} and one through {}; "
+                                   "close its holes, and give one part at a time",
+                                   name, place(mesh.vertices[ring.front()]), place(mesh.vertices[other->first])));
+    }
+    require_simple(mesh, ring, name, run);
+    return ring;
+}
+
+CutTin cut_tin(Tin const& target, std::vector<Vec2> const& outline, Run const& run) {
+    Parted const parted = part(target, outline);
+    if (parted.near.empty()) {
+        throw BadInput(
+            fmt::format("blend.cut_tin: the patch at ({}, {}) lies off the target", outline.at(0).x, outline.at(0).y));
+    }
+    Overlay const overlay = overlay_of(target, parted.near, outline, run);
+    std::vector<Where> const where = sides_of(overlay);
+    require_whole(target, parted.near, overlay, where);
+    std::vector<Triangle> const& triangles = overlay.mesh.tin.triangles;
+    Numbers numbers(target, overlay);
+    for (Triangle const& t : parted.far) {
+        std::for_each(t.begin(), t.end(), [&](std::uint32_t v) { numbers.use_target(v); });
+    }
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        if (where[i].in_target && !where[i].in_region) {
+            std::for_each(triangles[i].begin(), triangles[i].end(), [&](std::uint32_t v) { numbers.use_overlay(v); });
+        }
+    }
+    for (std::size_t i = overlay.edges.size(); i < overlay.mesh.chains.size(); ++i) {
+        for (std::uint32_t const v : overlay.mesh.chains[i]) {
+            numbers.use_overlay(v);
+        }
+    }
+    CutTin cut;
+    numbers.give_numbers(cut);
+    cut.removed = static_cast<std::int64_t>(target.vertices.size()) -
+                  (static_cast<std::int64_t>(cut.tin.vertices.size()) - cut.added);
+    for (Triangle const& t : parted.far) {
+        cut.tin.triangles.push_back({numbers.of_target(t[0]), numbers.of_target(t[1]), numbers.of_target(t[2])});
+    }
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        if (where[i].in_target && !where[i].in_region) {
+            Triangle const& t = triangles[i];
+            cut.tin.triangles.push_back({numbers.of_overlay(t[0]), numbers.of_overlay(t[1]), numbers.of_overlay(t[2])});
+        }
+    }
+    for (std::size_t i = overlay.edges.size(); i < overlay.mesh.chains.size(); ++i) {
+        auto& side = cut.sides.emplace_back();
+        for (std::uint32_t const v : overlay.mesh.chains[i]) {
+            side.push_back(numbers.of_overlay(v));
+        }
+    }
+    return cut;
+}
 
 FusedTin fuse_tin(Tin const& target, Tin const& patch, Run const& run) {
     Tin const below = facing_up(target, "the target");

@@ -219,52 +219,6 @@ Span span_of(Placement const& placement, Grid const& target) {
         target.north));
 }
 
-} // namespace
-
-Patch place_patch(Raster<float> const& source, Grid const& target, PlacePatchParams const& params, Run const& run) {
-    check(params);
-    SourceWindow const window = window_of(source, params);
-    bool const has_part = params.part.cells() > 0;
-    if (has_part) {
-        require_same_grid(params.part.grid(), target, "blend.place_patch: the mask and the target",
-                          "they share a grid");
-    }
-    std::int64_t const wanted = has_part ? count(params.part, run) : 0;
-    refuse_if<BadInput>(has_part && wanted == 0, "blend.place_patch: the mask holds no cell of the target");
-    Placement const placement(source, window, params);
-    Patch patch{Mask(target), Raster<double>(target, not_a_number)};
-    Span const span = span_of(placement, target);
-    auto const on_lattice = [&](Cell c) {
-        return !target.contains(c) || placement.on_lattice(placement.on_source(target.centre(c)));
-    };
-    parallel_ranges(run, std::max<std::int64_t>(span.end_row - span.first_row, 0), 8,
-                    [&](std::int64_t begin, std::int64_t end) {
-                        for (std::int64_t row = span.first_row + begin; row < span.first_row + end; ++row) {
-                            for (std::int64_t col = span.first_col; col < span.end_col; ++col) {
-                                Cell const c{col, row};
-                                Place const place = placement.on_source(target.centre(c));
-                                if (!placement.on_lattice(place)) {
-                                    continue;
-                                }
-                                patch.z[c] = params.gain * placement.height(place);
-                                bool const asked = (!has_part || params.part[c] != 0) && placement.in_window(place);
-                                patch.mask[c] = asked && on_lattice({col - 1, row}) && on_lattice({col + 1, row}) &&
-                                                        on_lattice({col, row - 1}) && on_lattice({col, row + 1})
-                                                    ? 1
-                                                    : 0;
-                            }
-                        }
-                    });
-    std::int64_t const covered = count(patch.mask, run);
-    if (covered == 0) {
-        refuse_empty(placement, window, target, has_part);
-    }
-    patch.outside = has_part ? wanted - covered : 0;
-    return patch;
-}
-
-namespace {
-
 using solver::fixed_cell;
 using solver::free_cell;
 using solver::outside_cell;
@@ -438,6 +392,48 @@ Seam seam_of(Raster<double> const& z, EditRegion const& edit_region) {
 }
 
 } // namespace
+
+Patch place_patch(Raster<float> const& source, Grid const& target, PlacePatchParams const& params, Run const& run) {
+    check(params);
+    SourceWindow const window = window_of(source, params);
+    bool const has_part = params.part.cells() > 0;
+    if (has_part) {
+        require_same_grid(params.part.grid(), target, "blend.place_patch: the mask and the target",
+                          "they share a grid");
+    }
+    std::int64_t const wanted = has_part ? count(params.part, run) : 0;
+    refuse_if<BadInput>(has_part && wanted == 0, "blend.place_patch: the mask holds no cell of the target");
+    Placement const placement(source, window, params);
+    Patch patch{Mask(target), Raster<double>(target, not_a_number)};
+    Span const span = span_of(placement, target);
+    auto const on_lattice = [&](Cell c) {
+        return !target.contains(c) || placement.on_lattice(placement.on_source(target.centre(c)));
+    };
+    parallel_ranges(run, std::max<std::int64_t>(span.end_row - span.first_row, 0), 8,
+                    [&](std::int64_t begin, std::int64_t end) {
+                        for (std::int64_t row = span.first_row + begin; row < span.first_row + end; ++row) {
+                            for (std::int64_t col = span.first_col; col < span.end_col; ++col) {
+                                Cell const c{col, row};
+                                Place const place = placement.on_source(target.centre(c));
+                                if (!placement.on_lattice(place)) {
+                                    continue;
+                                }
+                                patch.z[c] = params.gain * placement.height(place);
+                                bool const asked = (!has_part || params.part[c] != 0) && placement.in_window(place);
+                                patch.mask[c] = asked && on_lattice({col - 1, row}) && on_lattice({col + 1, row}) &&
+                                                        on_lattice({col, row - 1}) && on_lattice({col, row + 1})
+                                                    ? 1
+                                                    : 0;
+                            }
+                        }
+                    });
+    std::int64_t const covered = count(patch.mask, run);
+    if (covered == 0) {
+        refuse_empty(placement, window, target, has_part);
+    }
+    patch.outside = has_part ? wanted - covered : 0;
+    return patch;
+}
 
 Pasted paste(Raster<float> const& target, Patch const& patch, PasteParams const& params, Run const& run) {
     check(target, patch, params);

@@ -102,40 +102,6 @@ void require_held(EditRegion const& edit_region, Grid const& target, std::string
     }
 }
 
-} // namespace
-
-EditRegion edit_region_of(Raster<float> const& target, Mask const& changes, Mask const& given, std::string const& stage,
-                          Run const& run) {
-    Box const box = box_of(changes, stage);
-    Grid const frame = frame_of(target.grid(), box);
-    EditRegion edit_region{box.first, Raster<std::uint8_t>(frame), Raster<double>(frame)};
-    auto const changes_there = [&](Cell c) { return target.grid().contains(c) && changes[c] != 0; };
-    for (std::int64_t i = 0; i < frame.cells(); ++i) {
-        Cell const c = frame.at(i);
-        Cell const there{c.col + box.first.col, c.row + box.first.row};
-        edit_region.target[i] = target[there];
-        if (changes[there] != 0) {
-            edit_region.kind[i] = free_cell;
-            ++edit_region.cells;
-            continue;
-        }
-        bool const is_given = given.cells() > 0 && given[there] != 0;
-        bool const is_beside = std::ranges::any_of(neighbours_of(there), changes_there);
-        if (!is_given && (!is_beside || std::isnan(target[there]))) {
-            continue;
-        }
-        refuse_if<BadInput>(!is_given && std::isinf(target[there]),
-                            "{}: the target's height at column {}, row {} is infinite: correct it", stage, there.col,
-                            there.row);
-        edit_region.kind[i] = fixed_cell;
-        ++edit_region.neighbours;
-    }
-    require_held(edit_region, target.grid(), stage, run);
-    return edit_region;
-}
-
-namespace {
-
 using solver::outside_cell;
 
 struct Mean {
@@ -195,31 +161,6 @@ void set_source(solver::GridProblem& problem, Raster<double> const& carrier, Gui
         }
     });
 }
-
-} // namespace
-
-solver::GridSolution solve_guided(Raster<std::uint8_t> const& kind, Raster<double> const& fixed,
-                                  Raster<double> const& carrier, Guidance const& guidance,
-                                  solver::PoissonParams const& params, Run const& run) {
-    solver::GridProblem problem{kind, Raster<double>(kind.grid()), {}};
-    set_values(problem, fixed, carrier, run);
-    if (guidance.east.cells() > 0) {
-        set_source(problem, carrier, guidance, run);
-    }
-    solver::GridSolution solution = solver::solve_poisson(std::move(problem), params, run);
-    parallel_ranges(run, kind.cells(), 1 << 16, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t i = begin; i < end; ++i) {
-            if (kind[i] == free_cell) {
-                solution.value[i] += carrier[i];
-            } else if (kind[i] == fixed_cell) {
-                solution.value[i] = fixed[i];
-            }
-        }
-    });
-    return solution;
-}
-
-namespace {
 
 constexpr float far = std::numeric_limits<float>::infinity();
 
@@ -294,6 +235,57 @@ private:
 };
 
 } // namespace
+
+EditRegion edit_region_of(Raster<float> const& target, Mask const& changes, Mask const& given, std::string const& stage,
+                          Run const& run) {
+    Box const box = box_of(changes, stage);
+    Grid const frame = frame_of(target.grid(), box);
+    EditRegion edit_region{box.first, Raster<std::uint8_t>(frame), Raster<double>(frame)};
+    auto const changes_there = [&](Cell c) { return target.grid().contains(c) && changes[c] != 0; };
+    for (std::int64_t i = 0; i < frame.cells(); ++i) {
+        Cell const c = frame.at(i);
+        Cell const there{c.col + box.first.col, c.row + box.first.row};
+        edit_region.target[i] = target[there];
+        if (changes[there] != 0) {
+            edit_region.kind[i] = free_cell;
+            ++edit_region.cells;
+            continue;
+        }
+        bool const is_given = given.cells() > 0 && given[there] != 0;
+        bool const is_beside = std::ranges::any_of(neighbours_of(there), changes_there);
+        if (!is_given && (!is_beside || std::isnan(target[there]))) {
+            continue;
+        }
+        refuse_if<BadInput>(!is_given && std::isinf(target[there]),
+                            "{}: the target's height at column {}, row {} is infinite: correct it", stage, there.col,
+                            there.row);
+        edit_region.kind[i] = fixed_cell;
+        ++edit_region.neighbours;
+    }
+    require_held(edit_region, target.grid(), stage, run);
+    return edit_region;
+}
+
+solver::GridSolution solve_guided(Raster<std::uint8_t> const& kind, Raster<double> const& fixed,
+                                  Raster<double> const& carrier, Guidance const& guidance,
+                                  solver::PoissonParams const& params, Run const& run) {
+    solver::GridProblem problem{kind, Raster<double>(kind.grid()), {}};
+    set_values(problem, fixed, carrier, run);
+    if (guidance.east.cells() > 0) {
+        set_source(problem, carrier, guidance, run);
+    }
+    solver::GridSolution solution = solver::solve_poisson(std::move(problem), params, run);
+    parallel_ranges(run, kind.cells(), 1 << 16, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t i = begin; i < end; ++i) {
+            if (kind[i] == free_cell) {
+                solution.value[i] += carrier[i];
+            } else if (kind[i] == fixed_cell) {
+                solution.value[i] = fixed[i];
+            }
+        }
+    });
+    return solution;
+}
 
 Raster<float> distance_within(Mask const& mask, Run const& run) {
     Raster<float> distance(mask.grid(), far);

@@ -61,15 +61,6 @@ recipe::Recipe with_options(recipe::Recipe recipe, MakeParams const& params) {
     return recipe;
 }
 
-} // namespace
-
-recipe::Recipe recipe_asked(MakeParams const& params) {
-    return with_options(params.input.empty() ? recipe_without_file(params.set) : recipe::recipe_from(params.input),
-                        params);
-}
-
-namespace {
-
 recipe::Recipe recipe_to_rebuild(RebuildFromParams const& params) {
     refuse_if<BadParameter>(params.input.empty(), "commands.run_rebuild: name the rivers: any file of lines with "
                                                   "heights that GDAL reads, or a folder written by make or convert");
@@ -83,6 +74,11 @@ recipe::Recipe recipe_to_rebuild(RebuildFromParams const& params) {
 }
 
 } // namespace
+
+recipe::Recipe recipe_asked(MakeParams const& params) {
+    return with_options(params.input.empty() ? recipe_without_file(params.set) : recipe::recipe_from(params.input),
+                        params);
+}
 
 make::Made run_make(MakeParams const& params, Run const& run) {
     recipe::Recipe recipe = recipe_asked(params);

@@ -291,6 +291,21 @@ double power_below(double value) {
     return power;
 }
 
+/// With a thin space between thousands if there are more than this many digits.
+std::string grouped(double value, int decimals, std::size_t ungrouped) {
+    std::string const digits = fmt::format("{:.{}f}", std::fabs(value), decimals);
+    std::size_t const whole = std::min(digits.find('.'), digits.size());
+    std::string out;
+    for (std::size_t i = 0; i < digits.size(); ++i) {
+        if (i > 0 && i < whole && whole > ungrouped && (whole - i) % 3 == 0) {
+            out += "\u2009";
+        }
+        out += digits[i];
+    }
+    bool const zero = digits.find_first_not_of("0.") == std::string::npos;
+    return value < 0.0 && !zero ? "\u2212" + out : out;
+}
+
 } // namespace
 
 Picture paint(double width, double height, Format format, std::function<void(Cairo*)> const& fill) {
@@ -515,25 +530,6 @@ Ticks ticks_between(double low, double high, int most) {
     }
     return ticks;
 }
-
-namespace {
-
-/// With a thin space between thousands if there are more than this many digits.
-std::string grouped(double value, int decimals, std::size_t ungrouped) {
-    std::string const digits = fmt::format("{:.{}f}", std::fabs(value), decimals);
-    std::size_t const whole = std::min(digits.find('.'), digits.size());
-    std::string out;
-    for (std::size_t i = 0; i < digits.size(); ++i) {
-        if (i > 0 && i < whole && whole > ungrouped && (whole - i) % 3 == 0) {
-            out += "\u2009";
-        }
-        out += digits[i];
-    }
-    bool const zero = digits.find_first_not_of("0.") == std::string::npos;
-    return value < 0.0 && !zero ? "\u2212" + out : out;
-}
-
-} // namespace
 
 std::string number(double value, int decimals) {
     return std::fabs(value) >= 1e9 ? fmt::format("{:.4g}", value) : grouped(value, decimals, 4);

@@ -46,50 +46,6 @@ void draw_curve(Cairo* sheet, Box box, std::vector<Vec2> const& points, std::str
     }
 }
 
-} // namespace
-
-Picture curve(std::vector<double> const& increments, CurveParams const& params) {
-    require_in("draw.curve", "width_px", params.width_px, Range::between(200, 8000), "pixels");
-    require_in("draw.curve", "height_px", params.height_px, Range::between(200, 8000), "pixels");
-    std::vector<Vec2> steps;
-    std::vector<Vec2> sums;
-    double sum = 0.0;
-    for (std::size_t i = 0; i < increments.size(); ++i) {
-        double const x = static_cast<double>(i + 1);
-        sum += increments[i];
-        if (!std::isfinite(sum)) {
-            throw BadInput(fmt::format("draw.curve: the increment at x = {} is {}, not finite; correct its expression",
-                                       i + 1, increments[i]));
-        }
-        if (i == 0) {
-            sums.push_back({0.0, 0.0});
-        }
-        steps.push_back({x, increments[i]});
-        sums.push_back({x, sum});
-    }
-    double const width = params.width_px;
-    double const height = params.height_px;
-    double const unit = 14.0 * std::max(0.45, std::min(width / 1000.0, height / 560.0));
-    double const top = 4.2 * unit;
-    bool const abreast = width > 1.1 * height;
-    double const left = 6.0 * unit;
-    double const below = 4.8 * unit;
-    Box const first{left, top, (abreast ? 0.5 * width : width) - left - 1.4 * unit,
-                    (abreast ? height - top : 0.5 * (height - top)) - below};
-    Box second = first;
-    (abreast ? second.x : second.y) += abreast ? 0.5 * width : 0.5 * (height - top);
-
-    return paint(width, height, params.format, [&](Cairo* sheet) {
-        TextStyle const title{1.35 * unit, ink, Weight::bold};
-        std::string const text = params.increment.empty() ? "Increment" : "Increment: " + params.increment;
-        draw_text_within(sheet, {first.x, 2.2 * unit}, text, title, width - first.x - 1.4 * unit);
-        draw_curve(sheet, first, steps, "Δh(x) [m]", unit);
-        draw_curve(sheet, second, sums, "H(d) [m]", unit);
-    });
-}
-
-namespace {
-
 constexpr Colour tributary{0.42, 0.58, 0.74, 0.75};
 constexpr Colour stem{0.05, 0.28, 0.58};
 
@@ -242,7 +198,77 @@ double draw_key_of_profile(Cairo* sheet, Vec2 right, double unit) {
     return right.x - x;
 }
 
+constexpr Colour line_colour{0.45, 0.28, 0.14};
+constexpr Colour ground_colour{0.72, 0.56, 0.38, 0.22};
+
+void require_curve(std::vector<Vec2> const& curve, double integral) {
+    for (std::size_t i = 0; i < curve.size(); ++i) {
+        if (!(curve[i].x >= 0.0 && curve[i].x <= 1.0) || !std::isfinite(curve[i].y)) {
+            throw BadInput(fmt::format(
+                "draw.hypsometry: point {} is ({}, {}): a share of the area in [0, 1] and a height are required", i + 1,
+                curve[i].x, curve[i].y));
+        }
+    }
+    refuse_if<BadInput>(!curve.empty() && !std::isnan(integral) && !(integral >= 0.0 && integral <= 1.0),
+                        "draw.hypsometry: the integral is {}, must lie in [0, 1]", integral);
+}
+
+/// A dashed line at the mean height: the integral is its position between the lowest and the highest.
+void draw_mean(Cairo* sheet, Plot const& plot, double low, double high, double integral, double unit) {
+    double const mean = low + integral * (high - low);
+    Vec2 const right = plot.at(100.0, mean);
+    double const dash = 0.5 * unit;
+    cairo_set_dash(sheet, &dash, 1, 0.0);
+    draw_line(sheet, plot.at(0.0, mean), right, 0.08 * unit, faint_ink);
+    cairo_set_dash(sheet, nullptr, 0, 0.0);
+    double const range = high - low;
+    int const decimals = range > 0.0 && range < 10.0 ? 2 : range < 100.0 ? 1 : 0;
+    TextStyle const small{unit, faint_ink, Weight::normal, 0.2 * unit};
+    draw_text(sheet, {right.x - 0.6 * unit, right.y - 0.5 * unit}, "mean " + number(mean, decimals) + " m", small,
+              Anchor::end);
+}
+
 } // namespace
+
+Picture curve(std::vector<double> const& increments, CurveParams const& params) {
+    require_in("draw.curve", "width_px", params.width_px, Range::between(200, 8000), "pixels");
+    require_in("draw.curve", "height_px", params.height_px, Range::between(200, 8000), "pixels");
+    std::vector<Vec2> steps;
+    std::vector<Vec2> sums;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < increments.size(); ++i) {
+        double const x = static_cast<double>(i + 1);
+        sum += increments[i];
+        if (!std::isfinite(sum)) {
+            throw BadInput(fmt::format("draw.curve: the increment at x = {} is {}, not finite; correct its expression",
+                                       i + 1, increments[i]));
+        }
+        if (i == 0) {
+            sums.push_back({0.0, 0.0});
+        }
+        steps.push_back({x, increments[i]});
+        sums.push_back({x, sum});
+    }
+    double const width = params.width_px;
+    double const height = params.height_px;
+    double const unit = 14.0 * std::max(0.45, std::min(width / 1000.0, height / 560.0));
+    double const top = 4.2 * unit;
+    bool const abreast = width > 1.1 * height;
+    double const left = 6.0 * unit;
+    double const below = 4.8 * unit;
+    Box const first{left, top, (abreast ? 0.5 * width : width) - left - 1.4 * unit,
+                    (abreast ? height - top : 0.5 * (height - top)) - below};
+    Box second = first;
+    (abreast ? second.x : second.y) += abreast ? 0.5 * width : 0.5 * (height - top);
+
+    return paint(width, height, params.format, [&](Cairo* sheet) {
+        TextStyle const title{1.35 * unit, ink, Weight::bold};
+        std::string const text = params.increment.empty() ? "Increment" : "Increment: " + params.increment;
+        draw_text_within(sheet, {first.x, 2.2 * unit}, text, title, width - first.x - 1.4 * unit);
+        draw_curve(sheet, first, steps, "Δh(x) [m]", unit);
+        draw_curve(sheet, second, sums, "H(d) [m]", unit);
+    });
+}
 
 Picture profile(ElevatedNetwork const& network, NetworkOrders const& orders, ProfileParams const& params) {
     require_in("draw.profile", "width_px", params.width_px, Range::between(200, 8000), "pixels");
@@ -283,40 +309,6 @@ Picture profile(ElevatedNetwork const& network, NetworkOrders const& orders, Pro
         draw_confluences(sheet, course, plot, unit);
     });
 }
-
-namespace {
-
-constexpr Colour line_colour{0.45, 0.28, 0.14};
-constexpr Colour ground_colour{0.72, 0.56, 0.38, 0.22};
-
-void require_curve(std::vector<Vec2> const& curve, double integral) {
-    for (std::size_t i = 0; i < curve.size(); ++i) {
-        if (!(curve[i].x >= 0.0 && curve[i].x <= 1.0) || !std::isfinite(curve[i].y)) {
-            throw BadInput(fmt::format(
-                "draw.hypsometry: point {} is ({}, {}): a share of the area in [0, 1] and a height are required", i + 1,
-                curve[i].x, curve[i].y));
-        }
-    }
-    refuse_if<BadInput>(!curve.empty() && !std::isnan(integral) && !(integral >= 0.0 && integral <= 1.0),
-                        "draw.hypsometry: the integral is {}, must lie in [0, 1]", integral);
-}
-
-/// A dashed line at the mean height: the integral is its position between the lowest and the highest.
-void draw_mean(Cairo* sheet, Plot const& plot, double low, double high, double integral, double unit) {
-    double const mean = low + integral * (high - low);
-    Vec2 const right = plot.at(100.0, mean);
-    double const dash = 0.5 * unit;
-    cairo_set_dash(sheet, &dash, 1, 0.0);
-    draw_line(sheet, plot.at(0.0, mean), right, 0.08 * unit, faint_ink);
-    cairo_set_dash(sheet, nullptr, 0, 0.0);
-    double const range = high - low;
-    int const decimals = range > 0.0 && range < 10.0 ? 2 : range < 100.0 ? 1 : 0;
-    TextStyle const small{unit, faint_ink, Weight::normal, 0.2 * unit};
-    draw_text(sheet, {right.x - 0.6 * unit, right.y - 0.5 * unit}, "mean " + number(mean, decimals) + " m", small,
-              Anchor::end);
-}
-
-} // namespace
 
 Picture hypsometry(std::vector<Vec2> const& curve, double integral, HypsometryParams const& params) {
     require_in("draw.hypsometry", "width_px", params.width_px, Range::between(200, 8000), "pixels");

@@ -431,30 +431,6 @@ Picture sheet_of_panels(std::vector<Distribution> const& indices, DistributionsP
     });
 }
 
-} // namespace
-
-DistributionCounts counts_of(Distribution const& index) {
-    DistributionCounts counts;
-    std::int64_t inside = 0;
-    for (double const value : index.values) {
-        counts.known += std::isnan(value) ? 0 : 1;
-        inside += is_in_range(index, value) ? 1 : 0;
-    }
-    if (index.low) {
-        counts.inside = inside;
-    }
-    return counts;
-}
-
-Picture distributions(std::vector<Distribution> const& indices, DistributionsParams const& params) {
-    require_in("draw.distributions", "width_px", params.width_px, Range::between(200, 8000), "pixels");
-    require_indices(indices, "distributions");
-    constexpr double high = 13.6;
-    return sheet_of_panels(indices, params, "distributions", high, "median", draw_distribution);
-}
-
-namespace {
-
 /// The medians of parameter and index by value of the parameter if these are few, else of groups of members of equal
 /// size; none of too few members.
 std::vector<Vec2> medians_of(std::vector<Vec2> places) {
@@ -639,6 +615,26 @@ void draw_response(Cairo* canvas, Box panel, Distribution const& parameter, Dist
 }
 
 } // namespace
+
+DistributionCounts counts_of(Distribution const& index) {
+    DistributionCounts counts;
+    std::int64_t inside = 0;
+    for (double const value : index.values) {
+        counts.known += std::isnan(value) ? 0 : 1;
+        inside += is_in_range(index, value) ? 1 : 0;
+    }
+    if (index.low) {
+        counts.inside = inside;
+    }
+    return counts;
+}
+
+Picture distributions(std::vector<Distribution> const& indices, DistributionsParams const& params) {
+    require_in("draw.distributions", "width_px", params.width_px, Range::between(200, 8000), "pixels");
+    require_indices(indices, "distributions");
+    constexpr double high = 13.6;
+    return sheet_of_panels(indices, params, "distributions", high, "median", draw_distribution);
+}
 
 Picture responses(Distribution const& parameter, std::vector<Distribution> const& indices,
                   ResponsesParams const& params) {

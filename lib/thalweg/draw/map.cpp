@@ -40,43 +40,6 @@ LinesBox box_of_lines(std::vector<std::vector<Vec2>> const& lines) {
     return all;
 }
 
-} // namespace
-
-Picture lines(std::vector<std::vector<Vec2>> const& lines, LinesParams const& params) {
-    require_in("draw.lines", "width_px", params.width_px, Range::between(200, 8000), "pixels");
-    require_in("draw.lines", "height_px", params.height_px, Range::between(200, 8000), "pixels");
-    double const width = params.width_px;
-    double const height = params.height_px;
-    double const unit = 0.014 * std::min(width, height);
-    double const top = params.title.empty() ? 2.0 * unit : 4.2 * unit;
-    Box const box{2.0 * unit, top, width - 4.0 * unit, height - top - 2.0 * unit};
-    LinesBox const all = box_of_lines(lines);
-    double const span_x = std::max(all.high.x - all.low.x, 1e-9);
-    double const span_y = std::max(all.high.y - all.low.y, 1e-9);
-    double const scale = std::min(box.width / span_x, box.height / span_y);
-    double const left = box.x + 0.5 * (box.width - scale * span_x);
-    double const bottom = box.bottom() - 0.5 * (box.height - scale * span_y);
-    return paint(width, height, params.format, [&](Cairo* sheet) {
-        if (!params.title.empty()) {
-            draw_text_within(sheet, {box.x, 2.4 * unit}, params.title, {1.35 * unit, ink, Weight::bold}, box.width);
-        }
-        set_colour(sheet, link_colour);
-        cairo_set_line_width(sheet, std::clamp(0.12 * scale, 0.4, 2.0));
-        cairo_set_line_cap(sheet, CAIRO_LINE_CAP_ROUND);
-        cairo_set_line_join(sheet, CAIRO_LINE_JOIN_ROUND);
-        for (auto const& line : lines) {
-            std::vector<Vec2> drawn;
-            for (Vec2 const p : line) {
-                drawn.push_back({left + scale * (p.x - all.low.x), bottom - scale * (p.y - all.low.y)});
-            }
-            trace_line(sheet, drawn, 0.0);
-            cairo_stroke(sheet);
-        }
-    });
-}
-
-namespace {
-
 /// Sage, straw, sand, clay, white: seven colours interpolated in OKLab and divided into equal lengths there, so that
 /// equal differences of height look equally large. Light enough for shading.
 constexpr std::array<std::array<double, 3>, 17> tints = {{{126, 166, 136},
@@ -98,50 +61,6 @@ constexpr std::array<std::array<double, 3>, 17> tints = {{{126, 166, 136},
                                                           {248, 246, 243}}};
 
 constexpr int level_shade = 181; ///< GDAL's hillshade of level ground under a light 45 degrees high
-
-} // namespace
-
-std::vector<std::string> tint_colours() {
-    std::vector<std::string> codes;
-    for (auto const& [red, green, blue] : tints) {
-        codes.push_back(
-            fmt::format("#{:02x}{:02x}{:02x}", static_cast<int>(red), static_cast<int>(green), static_cast<int>(blue)));
-    }
-    return codes;
-}
-
-Colour mix(Colour a, Colour b, double share) {
-    auto const blend = [share](double p, double q) { return p + (q - p) * share; };
-    return {blend(a.red, b.red), blend(a.green, b.green), blend(a.blue, b.blue), 1.0};
-}
-
-std::uint32_t packed(double red, double green, double blue, double alpha) {
-    auto const byte = [](double v) { return static_cast<std::uint32_t>(std::clamp(v, 0.0, 1.0) * 255.0 + 0.5); };
-    return byte(alpha) << 24U | byte(red) << 16U | byte(green) << 8U | byte(blue);
-}
-
-Colour tint(double share) {
-    double const place = std::clamp(share, 0.0, 1.0) * static_cast<double>(tints.size() - 1);
-    std::size_t const k = std::min(static_cast<std::size_t>(place), tints.size() - 2);
-    double const part = place - static_cast<double>(k);
-    auto const channel = [&](std::size_t c) { return (tints[k][c] + (tints[k + 1][c] - tints[k][c]) * part) / 255.0; };
-    return {channel(0), channel(1), channel(2), 1.0};
-}
-
-HeightRange height_range(Raster<float> const& dem) {
-    HeightRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-    for (float const z : dem.values()) {
-        if (std::isfinite(z)) {
-            range.low_m = std::min(range.low_m, static_cast<double>(z));
-            range.high_m = std::max(range.high_m, static_cast<double>(z));
-        } else {
-            ++range.holes;
-        }
-    }
-    return range;
-}
-
-namespace {
 
 /// Slopes turned away from the light are multiplied by a cool grey, those facing it are lightened.
 Colour shade(Colour ground, double light) {
@@ -257,48 +176,6 @@ Relief tinted_relief(MapSheet const& sheet, HeightRange const& heights, double m
     return relief;
 }
 
-} // namespace
-
-void draw_relief(Cairo* sheet, Relief const& relief, Box where, double px_per_cell) {
-    struct End {
-        void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
-    };
-    auto* const pixels = const_cast<std::uint32_t*>(relief.pixels.data()); // Cairo only reads a source
-    std::unique_ptr<cairo_surface_t, End> const image(cairo_image_surface_create_for_data(
-        reinterpret_cast<unsigned char*>(pixels), CAIRO_FORMAT_ARGB32, relief.width, relief.height, 4 * relief.width));
-    double const scale = relief.cells_a_pixel * px_per_cell;
-    cairo_save(sheet);
-    cairo_rectangle(sheet, where.x, where.y, where.width, where.height);
-    cairo_clip(sheet);
-    cairo_translate(sheet, where.x, where.y);
-    cairo_scale(sheet, scale, scale);
-    cairo_set_source_surface(sheet, image.get(), 0.0, 0.0);
-    cairo_pattern_set_filter(cairo_get_source(sheet), scale > 1.0 ? CAIRO_FILTER_BILINEAR : CAIRO_FILTER_BEST);
-    bool const is_svg = cairo_surface_get_type(cairo_get_target(sheet)) == CAIRO_SURFACE_TYPE_SVG;
-    if (!is_svg) { // PNG has no such extension: Cairo 1.18 writes every pixel instead
-        cairo_pattern_set_extend(cairo_get_source(sheet), CAIRO_EXTEND_PAD);
-    }
-    cairo_paint(sheet);
-    cairo_restore(sheet);
-    cairo_surface_finish(image.get());
-}
-
-ContourKind kind_of_contour(double height_m, double interval_m) {
-    if (interval_m <= 0.0) {
-        return ContourKind::ordinary;
-    }
-    double const steps = height_m / (index_every * interval_m);
-    return std::fabs(steps - std::floor(steps + 0.5)) < 1e-6 ? ContourKind::index : ContourKind::ordinary;
-}
-
-std::vector<Vec2> on_sheet(std::vector<Vec2> const& line, Window const& window) {
-    std::vector<Vec2> out(line.size());
-    std::transform(line.begin(), line.end(), out.begin(), [&](Vec2 p) { return window.at(p); });
-    return out;
-}
-
-namespace {
-
 /// Channel width grows with the square root of discharge (Leopold and Maddock 1953), which grows with area.
 constexpr double width_exponent = 0.5;
 
@@ -313,39 +190,6 @@ LineStyle river_style(double share, RiverScale const& scale, double unit) {
     auto const blend = [share](double small, double large) { return small + (large - small) * share; };
     return {std::max(1.0, (1.2 + widest * share) * unit), {blend(0.25, 0.07), blend(0.50, 0.31), blend(0.80, 0.64)}};
 }
-
-} // namespace
-
-LineStyle contour_style(ContourKind kind, double unit) {
-    return kind == ContourKind::index ? LineStyle{0.9 * unit, {0.45, 0.27, 0.13, 0.60}}
-                                      : LineStyle{0.5 * unit, {0.45, 0.27, 0.13, 0.38}};
-}
-
-LineStyle style_of_area(double area_m2, RiverScale const& scale, double unit) {
-    return river_style(std::pow(known(area_m2) / scale.largest_area_m2, width_exponent), scale, unit);
-}
-
-LineStyle style_of_order(int order, RiverScale const& scale, double unit) {
-    return river_style(static_cast<double>(order - 1) / std::max(1, scale.highest_order - 1), scale, unit);
-}
-
-void draw_summit(Cairo* sheet, Vec2 at, double half_height) {
-    cairo_move_to(sheet, at.x, at.y - half_height);
-    cairo_line_to(sheet, at.x + half_height, at.y + 0.75 * half_height);
-    cairo_line_to(sheet, at.x - half_height, at.y + 0.75 * half_height);
-    cairo_close_path(sheet);
-    set_colour(sheet, {1.0, 1.0, 1.0, 0.75});
-    cairo_set_line_width(sheet, 0.6 * half_height);
-    cairo_stroke_preserve(sheet);
-    set_colour(sheet, {0.10, 0.10, 0.12});
-    cairo_fill(sheet);
-}
-
-LineStyle ridge_style(double unit) {
-    return {std::max(0.8, 1.1 * unit), {0.37, 0.20, 0.08, 0.85}};
-}
-
-namespace {
 
 RiverScale river_scale(MapSheet const& sheet) {
     RiverScale scale;
@@ -669,6 +513,146 @@ void draw_heading(Cairo* canvas, Layout const& layout, std::string const& title)
 }
 
 } // namespace
+
+Picture lines(std::vector<std::vector<Vec2>> const& lines, LinesParams const& params) {
+    require_in("draw.lines", "width_px", params.width_px, Range::between(200, 8000), "pixels");
+    require_in("draw.lines", "height_px", params.height_px, Range::between(200, 8000), "pixels");
+    double const width = params.width_px;
+    double const height = params.height_px;
+    double const unit = 0.014 * std::min(width, height);
+    double const top = params.title.empty() ? 2.0 * unit : 4.2 * unit;
+    Box const box{2.0 * unit, top, width - 4.0 * unit, height - top - 2.0 * unit};
+    LinesBox const all = box_of_lines(lines);
+    double const span_x = std::max(all.high.x - all.low.x, 1e-9);
+    double const span_y = std::max(all.high.y - all.low.y, 1e-9);
+    double const scale = std::min(box.width / span_x, box.height / span_y);
+    double const left = box.x + 0.5 * (box.width - scale * span_x);
+    double const bottom = box.bottom() - 0.5 * (box.height - scale * span_y);
+    return paint(width, height, params.format, [&](Cairo* sheet) {
+        if (!params.title.empty()) {
+            draw_text_within(sheet, {box.x, 2.4 * unit}, params.title, {1.35 * unit, ink, Weight::bold}, box.width);
+        }
+        set_colour(sheet, link_colour);
+        cairo_set_line_width(sheet, std::clamp(0.12 * scale, 0.4, 2.0));
+        cairo_set_line_cap(sheet, CAIRO_LINE_CAP_ROUND);
+        cairo_set_line_join(sheet, CAIRO_LINE_JOIN_ROUND);
+        for (auto const& line : lines) {
+            std::vector<Vec2> drawn;
+            for (Vec2 const p : line) {
+                drawn.push_back({left + scale * (p.x - all.low.x), bottom - scale * (p.y - all.low.y)});
+            }
+            trace_line(sheet, drawn, 0.0);
+            cairo_stroke(sheet);
+        }
+    });
+}
+
+std::vector<std::string> tint_colours() {
+    std::vector<std::string> codes;
+    for (auto const& [red, green, blue] : tints) {
+        codes.push_back(
+            fmt::format("#{:02x}{:02x}{:02x}", static_cast<int>(red), static_cast<int>(green), static_cast<int>(blue)));
+    }
+    return codes;
+}
+
+Colour mix(Colour a, Colour b, double share) {
+    auto const blend = [share](double p, double q) { return p + (q - p) * share; };
+    return {blend(a.red, b.red), blend(a.green, b.green), blend(a.blue, b.blue), 1.0};
+}
+
+std::uint32_t packed(double red, double green, double blue, double alpha) {
+    auto const byte = [](double v) { return static_cast<std::uint32_t>(std::clamp(v, 0.0, 1.0) * 255.0 + 0.5); };
+    return byte(alpha) << 24U | byte(red) << 16U | byte(green) << 8U | byte(blue);
+}
+
+Colour tint(double share) {
+    double const place = std::clamp(share, 0.0, 1.0) * static_cast<double>(tints.size() - 1);
+    std::size_t const k = std::min(static_cast<std::size_t>(place), tints.size() - 2);
+    double const part = place - static_cast<double>(k);
+    auto const channel = [&](std::size_t c) { return (tints[k][c] + (tints[k + 1][c] - tints[k][c]) * part) / 255.0; };
+    return {channel(0), channel(1), channel(2), 1.0};
+}
+
+HeightRange height_range(Raster<float> const& dem) {
+    HeightRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (float const z : dem.values()) {
+        if (std::isfinite(z)) {
+            range.low_m = std::min(range.low_m, static_cast<double>(z));
+            range.high_m = std::max(range.high_m, static_cast<double>(z));
+        } else {
+            ++range.holes;
+        }
+    }
+    return range;
+}
+
+void draw_relief(Cairo* sheet, Relief const& relief, Box where, double px_per_cell) {
+    struct End {
+        void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+    };
+    auto* const pixels = const_cast<std::uint32_t*>(relief.pixels.data()); // Cairo only reads a source
+    std::unique_ptr<cairo_surface_t, End> const image(cairo_image_surface_create_for_data(
+        reinterpret_cast<unsigned char*>(pixels), CAIRO_FORMAT_ARGB32, relief.width, relief.height, 4 * relief.width));
+    double const scale = relief.cells_a_pixel * px_per_cell;
+    cairo_save(sheet);
+    cairo_rectangle(sheet, where.x, where.y, where.width, where.height);
+    cairo_clip(sheet);
+    cairo_translate(sheet, where.x, where.y);
+    cairo_scale(sheet, scale, scale);
+    cairo_set_source_surface(sheet, image.get(), 0.0, 0.0);
+    cairo_pattern_set_filter(cairo_get_source(sheet), scale > 1.0 ? CAIRO_FILTER_BILINEAR : CAIRO_FILTER_BEST);
+    bool const is_svg = cairo_surface_get_type(cairo_get_target(sheet)) == CAIRO_SURFACE_TYPE_SVG;
+    if (!is_svg) { // PNG has no such extension: Cairo 1.18 writes every pixel instead
+        cairo_pattern_set_extend(cairo_get_source(sheet), CAIRO_EXTEND_PAD);
+    }
+    cairo_paint(sheet);
+    cairo_restore(sheet);
+    cairo_surface_finish(image.get());
+}
+
+ContourKind kind_of_contour(double height_m, double interval_m) {
+    if (interval_m <= 0.0) {
+        return ContourKind::ordinary;
+    }
+    double const steps = height_m / (index_every * interval_m);
+    return std::fabs(steps - std::floor(steps + 0.5)) < 1e-6 ? ContourKind::index : ContourKind::ordinary;
+}
+
+std::vector<Vec2> on_sheet(std::vector<Vec2> const& line, Window const& window) {
+    std::vector<Vec2> out(line.size());
+    std::transform(line.begin(), line.end(), out.begin(), [&](Vec2 p) { return window.at(p); });
+    return out;
+}
+
+LineStyle contour_style(ContourKind kind, double unit) {
+    return kind == ContourKind::index ? LineStyle{0.9 * unit, {0.45, 0.27, 0.13, 0.60}}
+                                      : LineStyle{0.5 * unit, {0.45, 0.27, 0.13, 0.38}};
+}
+
+LineStyle style_of_area(double area_m2, RiverScale const& scale, double unit) {
+    return river_style(std::pow(known(area_m2) / scale.largest_area_m2, width_exponent), scale, unit);
+}
+
+LineStyle style_of_order(int order, RiverScale const& scale, double unit) {
+    return river_style(static_cast<double>(order - 1) / std::max(1, scale.highest_order - 1), scale, unit);
+}
+
+void draw_summit(Cairo* sheet, Vec2 at, double half_height) {
+    cairo_move_to(sheet, at.x, at.y - half_height);
+    cairo_line_to(sheet, at.x + half_height, at.y + 0.75 * half_height);
+    cairo_line_to(sheet, at.x - half_height, at.y + 0.75 * half_height);
+    cairo_close_path(sheet);
+    set_colour(sheet, {1.0, 1.0, 1.0, 0.75});
+    cairo_set_line_width(sheet, 0.6 * half_height);
+    cairo_stroke_preserve(sheet);
+    set_colour(sheet, {0.10, 0.10, 0.12});
+    cairo_fill(sheet);
+}
+
+LineStyle ridge_style(double unit) {
+    return {std::max(0.8, 1.1 * unit), {0.37, 0.20, 0.08, 0.85}};
+}
 
 Picture map(MapSheet const& sheet, MapParams const& params) {
     require_sheet(sheet, params);

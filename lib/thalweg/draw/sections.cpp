@@ -82,76 +82,6 @@ std::vector<Section> through_the_middle(Raster<float> const& dem) {
     return {std::move(row), std::move(column)};
 }
 
-} // namespace
-
-double height_at(Raster<float> const& dem, Vec2 position) {
-    Grid const& grid = dem.grid();
-    // Ends of a section lie on the border up to rounding.
-    double const edge = 0.5 + 1e-6;
-    double const col = (position.x - grid.west) / grid.cell_m - 0.5;
-    double const row = (grid.north - position.y) / grid.cell_m - 0.5;
-    if (!(col >= -edge && row >= -edge && col <= static_cast<double>(grid.width) - 1.0 + edge &&
-          row <= static_cast<double>(grid.height) - 1.0 + edge)) {
-        return nothing;
-    }
-    double const c = std::clamp(col, 0.0, static_cast<double>(grid.width - 1));
-    double const r = std::clamp(row, 0.0, static_cast<double>(grid.height - 1));
-    auto const c0 = static_cast<std::int64_t>(c);
-    auto const r0 = static_cast<std::int64_t>(r);
-    double const x = c - static_cast<double>(c0);
-    double const y = r - static_cast<double>(r0);
-    double sum = 0.0;
-    for (auto const& [dc, dr, weight] : {std::tuple{0, 0, (1.0 - x) * (1.0 - y)}, std::tuple{1, 0, x * (1.0 - y)},
-                                         std::tuple{0, 1, (1.0 - x) * y}, std::tuple{1, 1, x * y}}) {
-        if (weight > 0.0) {
-            float const z = dem[Cell{c0 + dc, r0 + dr}];
-            sum += std::isfinite(z) ? weight * static_cast<double>(z) : nothing;
-        }
-    }
-    return sum;
-}
-
-std::vector<Section> cut_sections(Raster<float> const& dem, ElevatedNetwork const* network, NetworkOrders const* orders,
-                                  int count) {
-    Grid const& grid = dem.grid();
-    refuse_if<BadInput>(grid.width < 1 || grid.height < 1 || !(grid.cell_m > 0.0),
-                        "draw.cut_sections: a DEM of {} x {} cells of {} m; take one that has some", grid.width,
-                        grid.height, grid.cell_m);
-    MainStem const stem = network == nullptr || orders == nullptr ? MainStem{} : main_stem(network->planform, *orders);
-    if (stem.line.size() < 2 || !(stem.from_out_m.back() > 0.0)) {
-        return through_the_middle(dem);
-    }
-    double const length = stem.from_out_m.back();
-    // The course over a stretch of the river: a single step between cells does not show the direction of the valley.
-    double const stretch = std::max(0.06 * length, 4.0 * grid.cell_m);
-    double const reach = std::max(0.18 * length, 12.0 * grid.cell_m);
-    std::vector<Section> sections;
-    for (int k = 0; k < count; ++k) {
-        double const where = length * (count == 1 ? 0.5 : 0.9 - 0.8 * k / (count - 1));
-        Vec2 const at = place_on(stem, where);
-        Vec2 const above = place_on(stem, where + stretch);
-        Vec2 const below = place_on(stem, where - stretch);
-        double const course = distance(above, below);
-        Vec2 const down =
-            course > 0.0 ? Vec2{(below.x - above.x) / course, (below.y - above.y) / course} : Vec2{0.0, -1.0};
-        Vec2 const right{down.y, -down.x};
-        double const left_reach = std::min(reach, room(grid, at, {-right.x, -right.y}));
-        double const right_reach = std::min(reach, room(grid, at, right));
-        if (!(left_reach >= 0.0 && right_reach >= 0.0 && left_reach + right_reach > 0.0)) {
-            continue; // the river is off the DEM here
-        }
-        Section section;
-        section.from_outlet_m = where;
-        section.begin = {at.x - right.x * left_reach, at.y - right.y * left_reach};
-        section.end = {at.x + right.x * right_reach, at.y + right.y * right_reach};
-        sample(section, dem, -left_reach, right_reach);
-        sections.push_back(std::move(section));
-    }
-    return sections.empty() ? through_the_middle(dem) : sections;
-}
-
-namespace {
-
 constexpr Colour land_line{0.45, 0.28, 0.14};
 constexpr Colour land{0.72, 0.56, 0.38, 0.22};
 constexpr Colour water{0.08, 0.36, 0.72};
@@ -435,6 +365,72 @@ void write_scales(Cairo* cairo, PanelSheet const& sheet, Grid const& grid) {
 }
 
 } // namespace
+
+double height_at(Raster<float> const& dem, Vec2 position) {
+    Grid const& grid = dem.grid();
+    // Ends of a section lie on the border up to rounding.
+    double const edge = 0.5 + 1e-6;
+    double const col = (position.x - grid.west) / grid.cell_m - 0.5;
+    double const row = (grid.north - position.y) / grid.cell_m - 0.5;
+    if (!(col >= -edge && row >= -edge && col <= static_cast<double>(grid.width) - 1.0 + edge &&
+          row <= static_cast<double>(grid.height) - 1.0 + edge)) {
+        return nothing;
+    }
+    double const c = std::clamp(col, 0.0, static_cast<double>(grid.width - 1));
+    double const r = std::clamp(row, 0.0, static_cast<double>(grid.height - 1));
+    auto const c0 = static_cast<std::int64_t>(c);
+    auto const r0 = static_cast<std::int64_t>(r);
+    double const x = c - static_cast<double>(c0);
+    double const y = r - static_cast<double>(r0);
+    double sum = 0.0;
+    for (auto const& [dc, dr, weight] : {std::tuple{0, 0, (1.0 - x) * (1.0 - y)}, std::tuple{1, 0, x * (1.0 - y)},
+                                         std::tuple{0, 1, (1.0 - x) * y}, std::tuple{1, 1, x * y}}) {
+        if (weight > 0.0) {
+            float const z = dem[Cell{c0 + dc, r0 + dr}];
+            sum += std::isfinite(z) ? weight * static_cast<double>(z) : nothing;
+        }
+    }
+    return sum;
+}
+
+std::vector<Section> cut_sections(Raster<float> const& dem, ElevatedNetwork const* network, NetworkOrders const* orders,
+                                  int count) {
+    Grid const& grid = dem.grid();
+    refuse_if<BadInput>(grid.width < 1 || grid.height < 1 || !(grid.cell_m > 0.0),
+                        "draw.cut_sections: a DEM of {} x {} cells of {} m; take one that has some", grid.width,
+                        grid.height, grid.cell_m);
+    MainStem const stem = network == nullptr || orders == nullptr ? MainStem{} : main_stem(network->planform, *orders);
+    if (stem.line.size() < 2 || !(stem.from_out_m.back() > 0.0)) {
+        return through_the_middle(dem);
+    }
+    double const length = stem.from_out_m.back();
+    // The course over a stretch of the river: a single step between cells does not show the direction of the valley.
+    double const stretch = std::max(0.06 * length, 4.0 * grid.cell_m);
+    double const reach = std::max(0.18 * length, 12.0 * grid.cell_m);
+    std::vector<Section> sections;
+    for (int k = 0; k < count; ++k) {
+        double const where = length * (count == 1 ? 0.5 : 0.9 - 0.8 * k / (count - 1));
+        Vec2 const at = place_on(stem, where);
+        Vec2 const above = place_on(stem, where + stretch);
+        Vec2 const below = place_on(stem, where - stretch);
+        double const course = distance(above, below);
+        Vec2 const down =
+            course > 0.0 ? Vec2{(below.x - above.x) / course, (below.y - above.y) / course} : Vec2{0.0, -1.0};
+        Vec2 const right{down.y, -down.x};
+        double const left_reach = std::min(reach, room(grid, at, {-right.x, -right.y}));
+        double const right_reach = std::min(reach, room(grid, at, right));
+        if (!(left_reach >= 0.0 && right_reach >= 0.0 && left_reach + right_reach > 0.0)) {
+            continue; // the river is off the DEM here
+        }
+        Section section;
+        section.from_outlet_m = where;
+        section.begin = {at.x - right.x * left_reach, at.y - right.y * left_reach};
+        section.end = {at.x + right.x * right_reach, at.y + right.y * right_reach};
+        sample(section, dem, -left_reach, right_reach);
+        sections.push_back(std::move(section));
+    }
+    return sections.empty() ? through_the_middle(dem) : sections;
+}
 
 Picture sections(Raster<float> const& dem, ElevatedNetwork const* network, NetworkOrders const* orders,
                  SectionsParams const& params) {

@@ -78,36 +78,6 @@ double mean_around(Raster<float> const& dem, double col, double row, double reac
                                                                 : std::numeric_limits<double>::quiet_NaN();
 }
 
-} // namespace
-
-Fishnet fishnet(Raster<float> const& dem, std::int64_t most_lines) {
-    Extent const box = extent_of(dem);
-    double const longer = static_cast<double>(std::max(box.east - box.west, box.south - box.north));
-    double const apart = std::max(1.0, longer / static_cast<double>(most_lines - 1));
-    Fishnet net;
-    net.col_at = spread(box.west, box.east, apart);
-    net.row_at = spread(box.north, box.south, apart);
-    net.columns = std::ssize(net.col_at);
-    net.rows = std::ssize(net.row_at);
-    net.low_m = std::numeric_limits<double>::infinity();
-    net.high_m = -net.low_m;
-    // A third of a mesh each way: with less, single cells make the net noisy; with more, valleys fill up.
-    double const reach = apart > 1.0 ? apart / 3.0 : 0.0;
-    for (double const row : net.row_at) {
-        for (double const col : net.col_at) {
-            double const z = mean_around(dem, col, row, reach);
-            net.height_m.push_back(z);
-            if (std::isfinite(z)) {
-                net.low_m = std::min(net.low_m, z);
-                net.high_m = std::max(net.high_m, z);
-            }
-        }
-    }
-    return net;
-}
-
-namespace {
-
 constexpr double degree = 3.14159265358979323846 / 180.0;
 
 // Parallel projection, in metres: x to the right, y up.
@@ -547,6 +517,32 @@ std::string caption_of(Model const& model, double cell_m, WireframeParams const&
 }
 
 } // namespace
+
+Fishnet fishnet(Raster<float> const& dem, std::int64_t most_lines) {
+    Extent const box = extent_of(dem);
+    double const longer = static_cast<double>(std::max(box.east - box.west, box.south - box.north));
+    double const apart = std::max(1.0, longer / static_cast<double>(most_lines - 1));
+    Fishnet net;
+    net.col_at = spread(box.west, box.east, apart);
+    net.row_at = spread(box.north, box.south, apart);
+    net.columns = std::ssize(net.col_at);
+    net.rows = std::ssize(net.row_at);
+    net.low_m = std::numeric_limits<double>::infinity();
+    net.high_m = -net.low_m;
+    // A third of a mesh each way: with less, single cells make the net noisy; with more, valleys fill up.
+    double const reach = apart > 1.0 ? apart / 3.0 : 0.0;
+    for (double const row : net.row_at) {
+        for (double const col : net.col_at) {
+            double const z = mean_around(dem, col, row, reach);
+            net.height_m.push_back(z);
+            if (std::isfinite(z)) {
+                net.low_m = std::min(net.low_m, z);
+                net.high_m = std::max(net.high_m, z);
+            }
+        }
+    }
+    return net;
+}
 
 double azimuth_up_valley(WireframeScene const& scene) {
     constexpr double standard = 30.0;

@@ -66,52 +66,6 @@ CsvField quoted_field(std::string_view text, std::size_t at, std::string const& 
     return field;
 }
 
-} // namespace
-
-std::vector<std::vector<std::string>> csv_records(std::string_view text, std::string const& name) {
-    constexpr std::string_view mark = "\xEF\xBB\xBF";
-    text.remove_prefix(text.starts_with(mark) ? mark.size() : 0);
-    refuse_if<BadInput>(text.find('\0') != std::string_view::npos || !is_utf8(text),
-                        "ensemble.read_members_table: {} is not a text in UTF-8; name the table.csv of an ensemble",
-                        name);
-    std::vector<std::vector<std::string>> records;
-    std::size_t line = 1;
-    for (std::size_t at = 0; at < text.size();) {
-        std::vector<std::string> record;
-        std::size_t const first_line = line;
-        bool goes_on = true;
-        while (goes_on) {
-            bool const quoted = at < text.size() && text[at] == '"';
-            CsvField field = quoted ? quoted_field(text, at, name, line) : plain_field(text, at, name, line);
-            line += static_cast<std::size_t>(std::count(field.text.begin(), field.text.end(), '\n'));
-            at = field.end;
-            goes_on = at < text.size() && text[at] == ',';
-            at += goes_on ? 1 : 0;
-            record.push_back(std::move(field.text));
-        }
-        at += at < text.size() && text[at] == '\r' ? 1 : 0;
-        at += at < text.size() ? 1 : 0; // the line feed
-        ++line;
-        if (!records.empty()) {
-            refuse_if<BadInput>(record.size() != records.front().size(),
-                                "ensemble.read_members_table: {}, line {} has {} fields and the header {}; correct the "
-                                "line",
-                                name, first_line, record.size(), records.front().size());
-        }
-        records.push_back(std::move(record));
-    }
-    return records;
-}
-
-double plain_number(std::string_view text) {
-    double value = 0.0;
-    auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    bool const is_number = error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
-    return is_number ? value : std::numeric_limits<double>::quiet_NaN();
-}
-
-namespace {
-
 bool is_measure(std::string_view column) {
     constexpr std::array<std::string_view, 5> families = {"rivers.", "dem.", "law.", "dem_law.", "relief."};
     return std::any_of(families.begin(), families.end(), [&](std::string_view f) { return column.starts_with(f); });
@@ -175,6 +129,48 @@ std::int64_t member_number(std::string const& text, std::string const& name, std
 }
 
 } // namespace
+
+std::vector<std::vector<std::string>> csv_records(std::string_view text, std::string const& name) {
+    constexpr std::string_view mark = "\xEF\xBB\xBF";
+    text.remove_prefix(text.starts_with(mark) ? mark.size() : 0);
+    refuse_if<BadInput>(text.find('\0') != std::string_view::npos || !is_utf8(text),
+                        "ensemble.read_members_table: {} is not a text in UTF-8; name the table.csv of an ensemble",
+                        name);
+    std::vector<std::vector<std::string>> records;
+    std::size_t line = 1;
+    for (std::size_t at = 0; at < text.size();) {
+        std::vector<std::string> record;
+        std::size_t const first_line = line;
+        bool goes_on = true;
+        while (goes_on) {
+            bool const quoted = at < text.size() && text[at] == '"';
+            CsvField field = quoted ? quoted_field(text, at, name, line) : plain_field(text, at, name, line);
+            line += static_cast<std::size_t>(std::count(field.text.begin(), field.text.end(), '\n'));
+            at = field.end;
+            goes_on = at < text.size() && text[at] == ',';
+            at += goes_on ? 1 : 0;
+            record.push_back(std::move(field.text));
+        }
+        at += at < text.size() && text[at] == '\r' ? 1 : 0;
+        at += at < text.size() ? 1 : 0; // the line feed
+        ++line;
+        if (!records.empty()) {
+            refuse_if<BadInput>(record.size() != records.front().size(),
+                                "ensemble.read_members_table: {}, line {} has {} fields and the header {}; correct the "
+                                "line",
+                                name, first_line, record.size(), records.front().size());
+        }
+        records.push_back(std::move(record));
+    }
+    return records;
+}
+
+double plain_number(std::string_view text) {
+    double value = 0.0;
+    auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    bool const is_number = error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
+    return is_number ? value : std::numeric_limits<double>::quiet_NaN();
+}
 
 MembersTable read_members_table(std::string const& path) {
     auto records = csv_records(io::read_text(path, largest_table), path);

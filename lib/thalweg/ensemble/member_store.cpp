@@ -138,10 +138,6 @@ Raster<float> as_shares(Mask const& mask) {
     return shares;
 }
 
-} // namespace
-
-namespace {
-
 /// The number of the member whose file in a shard has this name; -1 for none.
 std::int64_t number_of_entry(std::string const& name) {
     std::int64_t number = -1;

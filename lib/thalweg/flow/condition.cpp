@@ -127,6 +127,41 @@ void each_bank(Banked banks, Raster<float> const& dem, Raster<float> const& vall
     }
 }
 
+struct HeightBefore {
+    CellIndex cell = 0;
+    float z = 0.0F; ///< [m]
+};
+
+/// As change_between(), from a list of the cells that were raised; of several heights of a cell the lowest counts.
+DemChange change_of(std::vector<HeightBefore> raised, Raster<float> const& after) {
+    std::sort(raised.begin(), raised.end(), [](HeightBefore const& a, HeightBefore const& b) {
+        return a.cell != b.cell ? a.cell < b.cell : a.z < b.z;
+    });
+    DemChange change;
+    double const cell_m2 = after.grid().cell_m * after.grid().cell_m;
+    double raised_m = 0.0; // by row, as there
+    for (std::size_t k = 0; k < raised.size(); ++k) {
+        auto const [cell, z] = raised[k];
+        if (k > 0 && raised[k - 1].cell == cell) {
+            continue;
+        }
+        if (k > 0 && raised[k - 1].cell / after.width() != cell / after.width()) {
+            change.raised_m3 += raised_m * cell_m2;
+            raised_m = 0.0;
+        }
+        double const rise = static_cast<double>(after[cell]) - static_cast<double>(z);
+        ++change.raised_cells;
+        change.max_raise_m = std::max(change.max_raise_m, rise);
+        raised_m += rise;
+    }
+    change.raised_m3 += raised_m * cell_m2;
+    return change;
+}
+
+Valley no_rivers(Grid const& grid) {
+    return {Raster<float>(grid, std::numeric_limits<float>::quiet_NaN())};
+}
+
 } // namespace
 
 Banks confine_channels(Raster<float> const& dem, Valley const& valley, RaiseBanksParams const& params, Run const& run) {
@@ -172,41 +207,6 @@ DemChange change_between(Raster<float> const& before, Raster<float> const& after
     return change;
 }
 
-namespace {
-
-struct HeightBefore {
-    CellIndex cell = 0;
-    float z = 0.0F; ///< [m]
-};
-
-/// As change_between(), from a list of the cells that were raised; of several heights of a cell the lowest counts.
-DemChange change_of(std::vector<HeightBefore> raised, Raster<float> const& after) {
-    std::sort(raised.begin(), raised.end(), [](HeightBefore const& a, HeightBefore const& b) {
-        return a.cell != b.cell ? a.cell < b.cell : a.z < b.z;
-    });
-    DemChange change;
-    double const cell_m2 = after.grid().cell_m * after.grid().cell_m;
-    double raised_m = 0.0; // by row, as there
-    for (std::size_t k = 0; k < raised.size(); ++k) {
-        auto const [cell, z] = raised[k];
-        if (k > 0 && raised[k - 1].cell == cell) {
-            continue;
-        }
-        if (k > 0 && raised[k - 1].cell / after.width() != cell / after.width()) {
-            change.raised_m3 += raised_m * cell_m2;
-            raised_m = 0.0;
-        }
-        double const rise = static_cast<double>(after[cell]) - static_cast<double>(z);
-        ++change.raised_cells;
-        change.max_raise_m = std::max(change.max_raise_m, rise);
-        raised_m += rise;
-    }
-    change.raised_m3 += raised_m * cell_m2;
-    return change;
-}
-
-} // namespace
-
 ConditionedDem condition(Raster<float> dem, Valley const& valley, ConditionParams const& params, Run const& run) {
     ConditionedDem out;
     if (params.method == Conditioning::none) {
@@ -236,14 +236,6 @@ ConditionedDem condition(Raster<float> dem, Valley const& valley, ConditionParam
     out.depressions = change_between(dem, out.dem);
     return out;
 }
-
-namespace {
-
-Valley no_rivers(Grid const& grid) {
-    return {Raster<float>(grid, std::numeric_limits<float>::quiet_NaN())};
-}
-
-} // namespace
 
 Raster<float> fill_depressions(Raster<float> const& dem, FillDepressionsParams const& params, Run const& run) {
     Valley const none = no_rivers(dem.grid());

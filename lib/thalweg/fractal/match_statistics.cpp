@@ -47,79 +47,6 @@ void check_extreme(Raster<float> const& dem, char const* what, std::optional<Fix
     check_range(what, extreme->z, -1e9, 1e9, "m");
 }
 
-} // namespace
-
-void check_targets(Raster<float> const& dem, Targets const& targets) {
-    check_extreme(dem, "highest point", targets.max);
-    check_extreme(dem, "lowest point", targets.min);
-    check_range("mean", targets.mean, -1e9, 1e9, "m");
-    check_range("deviation", targets.std, 0.0, 1e9, "m");
-    check_range("correlation length lx", targets.lx_cells, 0.0, 1e9, "cells");
-    check_range("correlation length ly", targets.ly_cells, 0.0, 1e9, "cells");
-    check_range("slope", targets.slope_rad, 0.0, portable::pi / 2.0, "rad");
-    check_range("fractal dimension", targets.dimension, 2.0, 3.0);
-    double const infinity = std::numeric_limits<double>::infinity();
-    double const max = targets.max ? targets.max->z : infinity;
-    double const min = targets.min ? targets.min->z : -infinity;
-    if (targets.max && targets.min && targets.max->cell == targets.min->cell) {
-        throw BadParameter(
-            fmt::format("fractal.match_statistics: the highest and the lowest point are both at column {}, row {}",
-                        targets.max->cell.col, targets.max->cell.row));
-    }
-    refuse_if<BadParameter>(
-        !(min < max), "fractal.match_statistics: the lowest point of {} m is not below the highest of {} m", min, max);
-    if (targets.mean && !(min < *targets.mean && *targets.mean < max)) {
-        throw BadParameter(fmt::format(
-            "fractal.match_statistics: a mean of {} m is not between the lowest point of {} m and the highest "
-            "of {} m",
-            *targets.mean, min, max));
-    }
-    if (!targets.max || !targets.min) {
-        return;
-    }
-    double const mean = targets.mean.value_or((max + min) / 2.0); // the bound is widest there
-    double const most = std::sqrt((max - mean) * (mean - min));
-    if (targets.std && *targets.std > most) {
-        throw BadParameter(fmt::format(
-            "fractal.match_statistics: heights between {} m and {} m{} cannot have a deviation of {} m; the most "
-            "is {:.3f} m (Bhatia and Davis)",
-            min, max, targets.mean ? fmt::format(" with a mean of {} m", mean) : "", *targets.std, most));
-    }
-}
-
-std::vector<FixedHeight> kept_heights(Raster<float> const& dem, Targets const& targets,
-                                      std::vector<FixedHeight> const& fixed) {
-    std::vector<FixedHeight> kept;
-    std::map<std::int64_t, double> seen;
-    auto const keep = [&](FixedHeight const& one) {
-        Cell const cell = one.cell;
-        refuse_if<BadInput>(!dem.grid().contains(cell) || std::isnan(dem[cell]) || !std::isfinite(one.z),
-                            "fractal.match_statistics: the fixed height of {} m at column {}, row {} is not finite, or "
-                            "lies off the grid or in a hole; leave it out",
-                            one.z, cell.col, cell.row);
-        auto const [at, fresh] = seen.emplace(dem.grid().index(cell), one.z);
-        if (fresh) {
-            kept.push_back(one);
-        } else if (at->second != one.z) {
-            throw BadInput(fmt::format("fractal.match_statistics: the cell at column {}, row {} has two target "
-                                       "heights, {} m and {} m; give one",
-                                       cell.col, cell.row, at->second, one.z));
-        }
-    };
-    for (auto const& extreme : {targets.max, targets.min}) {
-        if (extreme) {
-            keep(*extreme);
-        }
-    }
-    std::for_each(fixed.begin(), fixed.end(), keep);
-    refuse_if<BadInput>(kept.size() > most_fixed,
-                        "fractal.match_statistics: {} heights are fixed; at most {} can be kept, so thin them out",
-                        kept.size(), most_fixed);
-    return kept;
-}
-
-namespace {
-
 using solver::Quantity;
 
 // One statistic and its target.
@@ -605,29 +532,6 @@ void add_extremes(MatchedDem& projection, Targets const& targets, double deviati
     }
 }
 
-} // namespace
-
-MatchedDem match_statistics(Raster<float> const& dem, Targets const& targets, std::vector<FixedHeight> const& fixed,
-                            MatchParams const& params, Run const& run) {
-    check(dem, params);
-    check_targets(dem, targets);
-    std::vector<FixedHeight> const kept = kept_heights(dem, targets, fixed);
-    Limiter const limiter(targets, params.gap_m);
-    Bounds const bounds{limiter, kept};
-
-    Land land = through_fixed(dem, bounds, params.prior, run);
-    FieldStatistics const is = solver::field_statistics(land.dem, run);
-    double const deviation = targets.std.value_or(is.std > 0.0 ? is.std : 1.0);
-    std::vector<Goal> const goals = goals_of(targets, deviation);
-    Prior const prior(dem.grid(), kept, of_steps(params.prior), run);
-    Nearest nearest = approach(std::move(land), is, goals, deviation, bounds, prior, params, run);
-    nearest.found.residuals = residuals_of(goals, nearest.is, deviation);
-    add_extremes(nearest.found, targets, deviation, params.tolerance);
-    return std::move(nearest.found);
-}
-
-namespace {
-
 constexpr std::int64_t rows_a_range = 16;
 
 /// Weights of the window from -reach to reach, with sum 1.
@@ -691,6 +595,94 @@ Raster<double> difference_of_means(Raster<float> const& land, Raster<float> cons
 }
 
 } // namespace
+
+void check_targets(Raster<float> const& dem, Targets const& targets) {
+    check_extreme(dem, "highest point", targets.max);
+    check_extreme(dem, "lowest point", targets.min);
+    check_range("mean", targets.mean, -1e9, 1e9, "m");
+    check_range("deviation", targets.std, 0.0, 1e9, "m");
+    check_range("correlation length lx", targets.lx_cells, 0.0, 1e9, "cells");
+    check_range("correlation length ly", targets.ly_cells, 0.0, 1e9, "cells");
+    check_range("slope", targets.slope_rad, 0.0, portable::pi / 2.0, "rad");
+    check_range("fractal dimension", targets.dimension, 2.0, 3.0);
+    double const infinity = std::numeric_limits<double>::infinity();
+    double const max = targets.max ? targets.max->z : infinity;
+    double const min = targets.min ? targets.min->z : -infinity;
+    if (targets.max && targets.min && targets.max->cell == targets.min->cell) {
+        throw BadParameter(
+            fmt::format("fractal.match_statistics: the highest and the lowest point are both at column {}, row {}",
+                        targets.max->cell.col, targets.max->cell.row));
+    }
+    refuse_if<BadParameter>(
+        !(min < max), "fractal.match_statistics: the lowest point of {} m is not below the highest of {} m", min, max);
+    if (targets.mean && !(min < *targets.mean && *targets.mean < max)) {
+        throw BadParameter(fmt::format(
+            "fractal.match_statistics: a mean of {} m is not between the lowest point of {} m and the highest "
+            "of {} m",
+            *targets.mean, min, max));
+    }
+    if (!targets.max || !targets.min) {
+        return;
+    }
+    double const mean = targets.mean.value_or((max + min) / 2.0); // the bound is widest there
+    double const most = std::sqrt((max - mean) * (mean - min));
+    if (targets.std && *targets.std > most) {
+        throw BadParameter(fmt::format(
+            "fractal.match_statistics: heights between {} m and {} m{} cannot have a deviation of {} m; the most "
+            "is {:.3f} m (Bhatia and Davis)",
+            min, max, targets.mean ? fmt::format(" with a mean of {} m", mean) : "", *targets.std, most));
+    }
+}
+
+std::vector<FixedHeight> kept_heights(Raster<float> const& dem, Targets const& targets,
+                                      std::vector<FixedHeight> const& fixed) {
+    std::vector<FixedHeight> kept;
+    std::map<std::int64_t, double> seen;
+    auto const keep = [&](FixedHeight const& one) {
+        Cell const cell = one.cell;
+        refuse_if<BadInput>(!dem.grid().contains(cell) || std::isnan(dem[cell]) || !std::isfinite(one.z),
+                            "fractal.match_statistics: the fixed height of {} m at column {}, row {} is not finite, or "
+                            "lies off the grid or in a hole; leave it out",
+                            one.z, cell.col, cell.row);
+        auto const [at, fresh] = seen.emplace(dem.grid().index(cell), one.z);
+        if (fresh) {
+            kept.push_back(one);
+        } else if (at->second != one.z) {
+            throw BadInput(fmt::format("fractal.match_statistics: the cell at column {}, row {} has two target "
+                                       "heights, {} m and {} m; give one",
+                                       cell.col, cell.row, at->second, one.z));
+        }
+    };
+    for (auto const& extreme : {targets.max, targets.min}) {
+        if (extreme) {
+            keep(*extreme);
+        }
+    }
+    std::for_each(fixed.begin(), fixed.end(), keep);
+    refuse_if<BadInput>(kept.size() > most_fixed,
+                        "fractal.match_statistics: {} heights are fixed; at most {} can be kept, so thin them out",
+                        kept.size(), most_fixed);
+    return kept;
+}
+
+MatchedDem match_statistics(Raster<float> const& dem, Targets const& targets, std::vector<FixedHeight> const& fixed,
+                            MatchParams const& params, Run const& run) {
+    check(dem, params);
+    check_targets(dem, targets);
+    std::vector<FixedHeight> const kept = kept_heights(dem, targets, fixed);
+    Limiter const limiter(targets, params.gap_m);
+    Bounds const bounds{limiter, kept};
+
+    Land land = through_fixed(dem, bounds, params.prior, run);
+    FieldStatistics const is = solver::field_statistics(land.dem, run);
+    double const deviation = targets.std.value_or(is.std > 0.0 ? is.std : 1.0);
+    std::vector<Goal> const goals = goals_of(targets, deviation);
+    Prior const prior(dem.grid(), kept, of_steps(params.prior), run);
+    Nearest nearest = approach(std::move(land), is, goals, deviation, bounds, prior, params, run);
+    nearest.found.residuals = residuals_of(goals, nearest.is, deviation);
+    add_extremes(nearest.found, targets, deviation, params.tolerance);
+    return std::move(nearest.found);
+}
 
 Raster<float> with_fine_forms(Raster<float> const& land, Raster<float> const& fine, double cells, Run const& run) {
     require_in("fractal.with_fine_forms", "window", cells, {0.0, 1000.0, false, true}, "cells");

@@ -115,36 +115,6 @@ void even_out(std::array<double, 16>& weight) {
     }
 }
 
-} // namespace
-
-StencilWeights stencil_weights(Stencil stencil, std::uint32_t known, double hurst) {
-    std::vector<Offset> points;
-    std::vector<std::size_t> places;
-    for (std::size_t i = 0; i < around_centre.size(); ++i) {
-        if ((known >> i & 1U) != 0) {
-            points.push_back(around_centre[i]);
-            places.push_back(i);
-        }
-    }
-    Variogram const variogram(hurst);
-    bool const means = stencil == Stencil::four || stencil == Stencil::four_exact;
-    std::vector<double> const weights =
-        means ? std::vector<double>(points.size(), 1.0 / static_cast<double>(points.size()))
-              : kriged(points, variogram);
-    StencilWeights out;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        out.weight[places[i]] = weights[i];
-    }
-    if (known == used_neighbours(stencil)) {
-        even_out(out.weight);
-    }
-    out.deviation = stencil == Stencil::four ? std::sqrt(1.0 - portable::pow(2.0, 2.0 * hurst - 2.0))
-                                             : exact_deviation(points, weights, variogram);
-    return out;
-}
-
-namespace {
-
 // Parameters of a fractional Brownian surface through coarse heights.
 struct Conditioning {
     Raster<float> const* coarse = nullptr; // finite heights and NaN
@@ -433,6 +403,32 @@ std::int64_t adapt(Character& character, Raster<float> const& coarse, Run const&
 }
 
 } // namespace
+
+StencilWeights stencil_weights(Stencil stencil, std::uint32_t known, double hurst) {
+    std::vector<Offset> points;
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < around_centre.size(); ++i) {
+        if ((known >> i & 1U) != 0) {
+            points.push_back(around_centre[i]);
+            places.push_back(i);
+        }
+    }
+    Variogram const variogram(hurst);
+    bool const means = stencil == Stencil::four || stencil == Stencil::four_exact;
+    std::vector<double> const weights =
+        means ? std::vector<double>(points.size(), 1.0 / static_cast<double>(points.size()))
+              : kriged(points, variogram);
+    StencilWeights out;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        out.weight[places[i]] = weights[i];
+    }
+    if (known == used_neighbours(stencil)) {
+        even_out(out.weight);
+    }
+    out.deviation = stencil == Stencil::four ? std::sqrt(1.0 - portable::pow(2.0, 2.0 * hurst - 2.0))
+                                             : exact_deviation(points, weights, variogram);
+    return out;
+}
 
 Displaced midpoint(Raster<float> const& coarse, MidpointParams const& params, Run const& run) {
     check_params(params);

@@ -388,17 +388,6 @@ private:
     std::vector<Crossing> found_;
 };
 
-} // namespace
-
-std::vector<Crossing> crossings(Lines const& lines, Run const& run) {
-    Meetings meetings(lines);
-    each_close_pair(
-        lines, [&](LineSegment s, LineSegment t) { meetings.add(s, t); }, run);
-    return meetings.sorted();
-}
-
-namespace {
-
 bool share_node(Lines const& lines, std::vector<EndNodes> const& nodes, std::size_t line, std::size_t other, Vec2 at) {
     for (std::size_t const end : {0U, 1U}) {
         Vec2 const here = end == 0 ? lines[line].front() : lines[line].back();
@@ -413,6 +402,13 @@ bool share_node(Lines const& lines, std::vector<EndNodes> const& nodes, std::siz
 }
 
 } // namespace
+
+std::vector<Crossing> crossings(Lines const& lines, Run const& run) {
+    Meetings meetings(lines);
+    each_close_pair(
+        lines, [&](LineSegment s, LineSegment t) { meetings.add(s, t); }, run);
+    return meetings.sorted();
+}
 
 std::vector<Meeting> meetings(Lines const& lines, std::vector<EndNodes> const& nodes, Run const& run) {
     refuse_if<BadInput>(nodes.size() != lines.size(), "geometry.meetings: {} polylines but nodes of {}", lines.size(),

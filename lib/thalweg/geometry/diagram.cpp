@@ -192,6 +192,48 @@ void sort(std::vector<RawDiagram::Link>& links) {
     std::ranges::sort(links, {}, [](auto const& l) { return std::tie(l.from, l.to, l.left, l.right); });
 }
 
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_2;
+using LabelMesh = CGAL::Delaunay_triangulation_2<
+    Kernel, CGAL::Triangulation_data_structure_2<CGAL::Triangulation_vertex_base_with_info_2<std::size_t, Kernel>,
+                                                 CGAL::Triangulation_face_base_with_info_2<std::size_t, Kernel>>>;
+
+LabelMesh mesh_of(LabelledSites const& sites, Run const& run) {
+    using Entry = std::pair<Point, std::size_t>;
+    std::vector<Entry> entries;
+    for (auto const& site : sites.sites) {
+        entries.emplace_back(Point(site.a.x, site.a.y), entries.size());
+    }
+    for (Vec2 const p : sites.far) {
+        entries.emplace_back(Point(p.x, p.y), entries.size());
+    }
+    CGAL::spatial_sort(entries.begin(), entries.end(),
+                       CGAL::Spatial_sort_traits_adapter_2<Kernel, CGAL::First_of_pair_property_map<Entry>>());
+    LabelMesh mesh;
+    LabelMesh::Face_handle hint;
+    std::size_t done = 0;
+    for (auto const& [point, site] : entries) {
+        if ((done++ & 0x3fff) == 0) {
+            run.at(static_cast<double>(done) / static_cast<double>(entries.size()), "ridges");
+        }
+        auto const vertex = mesh.insert(point, hint);
+        vertex->info() = site;
+        hint = vertex->face();
+    }
+    return mesh;
+}
+
+/// The finite faces, sorted by the sites around them.
+std::vector<std::pair<Around, LabelMesh::Face_handle>> faces_of(LabelMesh const& mesh) {
+    std::vector<std::pair<Around, LabelMesh::Face_handle>> faces;
+    for (auto const face : mesh.finite_face_handles()) {
+        auto const site = [&](int i) { return face->vertex(i)->info(); };
+        faces.emplace_back(least_first({site(0), site(1), site(2)}), face);
+    }
+    std::ranges::sort(faces, {}, [](auto const& f) { return f.first.sites; });
+    return faces;
+}
+
 } // namespace
 
 LabelledSites sites_of(std::vector<LabelledLine> const& lines, Bounds const& bounds, Parts parts,
@@ -305,52 +347,6 @@ Diagram finish(LabelledSites const& sites, RawDiagram raw, Bounds const& bounds,
     }
     return diagram;
 }
-
-namespace {
-
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_2;
-using LabelMesh = CGAL::Delaunay_triangulation_2<
-    Kernel, CGAL::Triangulation_data_structure_2<CGAL::Triangulation_vertex_base_with_info_2<std::size_t, Kernel>,
-                                                 CGAL::Triangulation_face_base_with_info_2<std::size_t, Kernel>>>;
-
-LabelMesh mesh_of(LabelledSites const& sites, Run const& run) {
-    using Entry = std::pair<Point, std::size_t>;
-    std::vector<Entry> entries;
-    for (auto const& site : sites.sites) {
-        entries.emplace_back(Point(site.a.x, site.a.y), entries.size());
-    }
-    for (Vec2 const p : sites.far) {
-        entries.emplace_back(Point(p.x, p.y), entries.size());
-    }
-    CGAL::spatial_sort(entries.begin(), entries.end(),
-                       CGAL::Spatial_sort_traits_adapter_2<Kernel, CGAL::First_of_pair_property_map<Entry>>());
-    LabelMesh mesh;
-    LabelMesh::Face_handle hint;
-    std::size_t done = 0;
-    for (auto const& [point, site] : entries) {
-        if ((done++ & 0x3fff) == 0) {
-            run.at(static_cast<double>(done) / static_cast<double>(entries.size()), "ridges");
-        }
-        auto const vertex = mesh.insert(point, hint);
-        vertex->info() = site;
-        hint = vertex->face();
-    }
-    return mesh;
-}
-
-/// The finite faces, sorted by the sites around them.
-std::vector<std::pair<Around, LabelMesh::Face_handle>> faces_of(LabelMesh const& mesh) {
-    std::vector<std::pair<Around, LabelMesh::Face_handle>> faces;
-    for (auto const face : mesh.finite_face_handles()) {
-        auto const site = [&](int i) { return face->vertex(i)->info(); };
-        faces.emplace_back(least_first({site(0), site(1), site(2)}), face);
-    }
-    std::ranges::sort(faces, {}, [](auto const& f) { return f.first.sites; });
-    return faces;
-}
-
-} // namespace
 
 Diagram voronoi(std::vector<LabelledLine> const& lines, Bounds const& bounds, Run const& run) {
     LabelledSites const sites = sites_of(lines, bounds, Parts::vertices, "geometry.voronoi");

@@ -157,59 +157,6 @@ Vec2 guessed(std::array<Site, 3> const& sites) {
     return best;
 }
 
-} // namespace
-
-Vec2 equidistant(std::array<Site, 3> const& sites, Vec2 guess) {
-    if (!is_finite(guess)) {
-        guess = guessed(sites);
-    }
-    Vec2 p = guess;
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t j = 0; j < 3; ++j) {
-            if (is_end_of(sites[i], sites[j])) {
-                p = on_perpendicular(sites[i].a, sites[j], sites[3 - i - j], guess);
-                bool const better = is_finite(p) && spread(sites, p) < spread(sites, guess);
-                return better ? p : guess;
-            }
-        }
-    }
-    return by_newton(sites, guess);
-}
-
-std::vector<Vec2> curve_between(Site const& s, Site const& t, Vec2 p, Vec2 q, double tolerance_m, double farthest_m) {
-    if (is_point(s) == is_point(t)) {
-        return {};
-    }
-    Site const& point = is_point(s) ? s : t;
-    Site const& line = is_point(s) ? t : s;
-    Vec2 up = normal_of(line);
-    double height = dot(up, point.a - line.a);
-    if (height < 0.0) {
-        up = -1.0 * up;
-        height = -height;
-    }
-    if (!(height > 0.0)) {
-        return {};
-    }
-    // With the vertex of the parabola above the origin: v = (u^2 + h^2) / 2h.
-    Vec2 const along{up.y, -up.x};
-    double const reach = std::sqrt(2.0 * height * farthest_m);
-    double const first = std::clamp(dot(along, p - point.a), -reach, reach);
-    double const last = std::clamp(dot(along, q - point.a), -reach, reach);
-    auto const parts =
-        static_cast<std::int64_t>(std::ceil(std::fabs(last - first) / std::sqrt(8.0 * height * tolerance_m)));
-    std::vector<Vec2> curve;
-    for (std::int64_t k = 1; k < parts; ++k) {
-        double const u = first + (last - first) * (static_cast<double>(k) / static_cast<double>(parts));
-        // Measured from the point, not from the line: rounding u^2 + h^2 would lose detail close to the point.
-        double const v = (u * u - height * height) / (2.0 * height);
-        curve.push_back(point.a + u * along + v * up);
-    }
-    return curve;
-}
-
-namespace {
-
 using Doubles = CGAL::Simple_cartesian<double>;
 using GraphPoint = Doubles::Point_2;
 using Graph =
@@ -347,6 +294,55 @@ RawDiagram raw_of(Built const& built, LabelledSites const& sites, Origin const& 
 }
 
 } // namespace
+
+Vec2 equidistant(std::array<Site, 3> const& sites, Vec2 guess) {
+    if (!is_finite(guess)) {
+        guess = guessed(sites);
+    }
+    Vec2 p = guess;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
+            if (is_end_of(sites[i], sites[j])) {
+                p = on_perpendicular(sites[i].a, sites[j], sites[3 - i - j], guess);
+                bool const better = is_finite(p) && spread(sites, p) < spread(sites, guess);
+                return better ? p : guess;
+            }
+        }
+    }
+    return by_newton(sites, guess);
+}
+
+std::vector<Vec2> curve_between(Site const& s, Site const& t, Vec2 p, Vec2 q, double tolerance_m, double farthest_m) {
+    if (is_point(s) == is_point(t)) {
+        return {};
+    }
+    Site const& point = is_point(s) ? s : t;
+    Site const& line = is_point(s) ? t : s;
+    Vec2 up = normal_of(line);
+    double height = dot(up, point.a - line.a);
+    if (height < 0.0) {
+        up = -1.0 * up;
+        height = -height;
+    }
+    if (!(height > 0.0)) {
+        return {};
+    }
+    // With the vertex of the parabola above the origin: v = (u^2 + h^2) / 2h.
+    Vec2 const along{up.y, -up.x};
+    double const reach = std::sqrt(2.0 * height * farthest_m);
+    double const first = std::clamp(dot(along, p - point.a), -reach, reach);
+    double const last = std::clamp(dot(along, q - point.a), -reach, reach);
+    auto const parts =
+        static_cast<std::int64_t>(std::ceil(std::fabs(last - first) / std::sqrt(8.0 * height * tolerance_m)));
+    std::vector<Vec2> curve;
+    for (std::int64_t k = 1; k < parts; ++k) {
+        double const u = first + (last - first) * (static_cast<double>(k) / static_cast<double>(parts));
+        // Measured from the point, not from the line: rounding u^2 + h^2 would lose detail close to the point.
+        double const v = (u * u - height * height) / (2.0 * height);
+        curve.push_back(point.a + u * along + v * up);
+    }
+    return curve;
+}
 
 Diagram medial_lines(std::vector<LabelledLine> const& lines, Bounds const& bounds, MedialLinesParams const& params,
                      Run const& run) {

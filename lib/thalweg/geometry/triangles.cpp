@@ -44,57 +44,6 @@ int sign(double v) {
     return v > 0.0 ? 1 : v < 0.0 ? -1 : 0;
 }
 
-} // namespace
-
-int side_of_line(Vec2 a, Vec2 b, Vec2 p) {
-    double const ax = a.x - p.x;
-    double const ay = a.y - p.y;
-    double const bx = b.x - p.x;
-    double const by = b.y - p.y;
-    double const left = ax * by;
-    double const right = ay * bx;
-    double const magnitude = std::fabs(left) + std::fabs(right);
-    if (magnitude > least_magnitude && magnitude < greatest_magnitude) {
-        constexpr double bound = (3.0 + 16.0 * 0x1p-53) * 0x1p-53;
-        if (std::fabs(left - right) > bound * magnitude) {
-            return sign(left - right);
-        }
-        if (is_exact(a.x, p.x) && is_exact(a.y, p.y) && is_exact(b.x, p.x) && is_exact(b.y, p.y)) {
-            // Rounding preserves the order of products: only if they round to the same value do the errors decide.
-            return left != right ? sign(left - right)
-                                 : sign(rest_of_product(ax, by, left) - rest_of_product(ay, bx, right));
-        }
-    }
-    using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_2;
-    return static_cast<int>(CGAL::orientation(Point(a.x, a.y), Point(b.x, b.y), Point(p.x, p.y)));
-}
-
-double height_on_plane(Vec3 const& a, Vec3 const& b, Vec3 const& c, Vec2 p) {
-    using Rational = CGAL::Exact_rational;
-    auto const difference = [](double v, double from) { return Rational(Rational(v) - Rational(from)); };
-    Rational const bx = difference(b.x, a.x);
-    Rational const by = difference(b.y, a.y);
-    Rational const cx = difference(c.x, a.x);
-    Rational const cy = difference(c.y, a.y);
-    Rational const px = difference(p.x, a.x);
-    Rational const py = difference(p.y, a.y);
-    Rational const area = bx * cy - cx * by;
-    Rational const of_b = (px * cy - cx * py) / area;
-    Rational const of_c = (bx * py - px * by) / area;
-    Rational const z = Rational(a.z) + of_b * difference(b.z, a.z) + of_c * difference(c.z, a.z);
-    double best = CGAL::to_double(z); // which only promises a neighbour of the nearest
-    for (double const side : {-1.0, 1.0}) {
-        double const next = std::nextafter(best, side * std::numeric_limits<double>::infinity());
-        Rational const gain = CGAL::abs(Rational(best) - z) - CGAL::abs(Rational(next) - z);
-        if (gain > 0) {
-            best = next;
-        }
-    }
-    return best;
-}
-
-namespace {
-
 using Triangle = std::array<std::uint32_t, 3>;
 
 // Spreads the bits of v to every second bit.
@@ -147,29 +96,6 @@ void sort_by_half(std::vector<Placed>& from, std::vector<Placed>& to, unsigned s
     from.swap(to);
 }
 
-} // namespace
-
-void put_in_order(Tin& tin) {
-    auto const places = curve(tin.vertices);
-    std::vector<Placed> sorted;
-    sorted.reserve(tin.triangles.size());
-    for (Triangle t : tin.triangles) {
-        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-        sorted.push_back({places[t[0]], t});
-    }
-    std::vector<Placed> spare(sorted.size());
-    sort_by_half(sorted, spare, 0);
-    sort_by_half(sorted, spare, 16);
-    for (auto begin = sorted.begin(); begin != sorted.end();) {
-        auto const end = std::find_if(begin, sorted.end(), [&](Placed const& p) { return p.place != begin->place; });
-        std::sort(begin, end, [](Placed const& a, Placed const& b) { return a.triangle < b.triangle; });
-        begin = end;
-    }
-    std::transform(sorted.begin(), sorted.end(), tin.triangles.begin(), [](Placed const& p) { return p.triangle; });
-}
-
-namespace {
-
 using Doubles = CGAL::Simple_cartesian<double>;
 
 template <class Point> std::array<double, 3> of_triangle(Point const& a, Point const& b, Point const& c) {
@@ -198,6 +124,72 @@ void require_area(Tin const& tin, std::size_t number, Measured measured) {
 }
 
 } // namespace
+
+int side_of_line(Vec2 a, Vec2 b, Vec2 p) {
+    double const ax = a.x - p.x;
+    double const ay = a.y - p.y;
+    double const bx = b.x - p.x;
+    double const by = b.y - p.y;
+    double const left = ax * by;
+    double const right = ay * bx;
+    double const magnitude = std::fabs(left) + std::fabs(right);
+    if (magnitude > least_magnitude && magnitude < greatest_magnitude) {
+        constexpr double bound = (3.0 + 16.0 * 0x1p-53) * 0x1p-53;
+        if (std::fabs(left - right) > bound * magnitude) {
+            return sign(left - right);
+        }
+        if (is_exact(a.x, p.x) && is_exact(a.y, p.y) && is_exact(b.x, p.x) && is_exact(b.y, p.y)) {
+            // Rounding preserves the order of products: only if they round to the same value do the errors decide.
+            return left != right ? sign(left - right)
+                                 : sign(rest_of_product(ax, by, left) - rest_of_product(ay, bx, right));
+        }
+    }
+    using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_2;
+    return static_cast<int>(CGAL::orientation(Point(a.x, a.y), Point(b.x, b.y), Point(p.x, p.y)));
+}
+
+double height_on_plane(Vec3 const& a, Vec3 const& b, Vec3 const& c, Vec2 p) {
+    using Rational = CGAL::Exact_rational;
+    auto const difference = [](double v, double from) { return Rational(Rational(v) - Rational(from)); };
+    Rational const bx = difference(b.x, a.x);
+    Rational const by = difference(b.y, a.y);
+    Rational const cx = difference(c.x, a.x);
+    Rational const cy = difference(c.y, a.y);
+    Rational const px = difference(p.x, a.x);
+    Rational const py = difference(p.y, a.y);
+    Rational const area = bx * cy - cx * by;
+    Rational const of_b = (px * cy - cx * py) / area;
+    Rational const of_c = (bx * py - px * by) / area;
+    Rational const z = Rational(a.z) + of_b * difference(b.z, a.z) + of_c * difference(c.z, a.z);
+    double best = CGAL::to_double(z); // which only promises a neighbour of the nearest
+    for (double const side : {-1.0, 1.0}) {
+        double const next = std::nextafter(best, side * std::numeric_limits<double>::infinity());
+        Rational const gain = CGAL::abs(Rational(best) - z) - CGAL::abs(Rational(next) - z);
+        if (gain > 0) {
+            best = next;
+        }
+    }
+    return best;
+}
+
+void put_in_order(Tin& tin) {
+    auto const places = curve(tin.vertices);
+    std::vector<Placed> sorted;
+    sorted.reserve(tin.triangles.size());
+    for (Triangle t : tin.triangles) {
+        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+        sorted.push_back({places[t[0]], t});
+    }
+    std::vector<Placed> spare(sorted.size());
+    sort_by_half(sorted, spare, 0);
+    sort_by_half(sorted, spare, 16);
+    for (auto begin = sorted.begin(); begin != sorted.end();) {
+        auto const end = std::find_if(begin, sorted.end(), [&](Placed const& p) { return p.place != begin->place; });
+        std::sort(begin, end, [](Placed const& a, Placed const& b) { return a.triangle < b.triangle; });
+        begin = end;
+    }
+    std::transform(sorted.begin(), sorted.end(), tin.triangles.begin(), [](Placed const& p) { return p.triangle; });
+}
 
 std::vector<std::array<double, 3>> half_cotangents(Tin const& tin, Measured measured) {
     std::vector<std::array<double, 3>> cotangents;

@@ -55,6 +55,65 @@ std::vector<Finding> turned_lengths(network::Directions const& directions) {
     return {{.kind = "directions", .amount = sum_m, .text = text}};
 }
 
+struct Words {
+    char const* key;
+    char const* text;
+};
+
+/// By LeftOut.
+constexpr std::array<Words, 8> words{{{"filter", "no natural watercourses"},
+                                      {"coast", "coastlines"},
+                                      {"grid", "beyond the grid"},
+                                      {"duplicate", "duplicates"},
+                                      {"too_short", "too short"},
+                                      {"divergence", "divergences"},
+                                      {"pruned", "pruned"},
+                                      {"head", "cut at heads"}}};
+
+double sum_of(std::vector<Finding> const& findings, std::initializer_list<FindingKind> kinds) {
+    double sum = 0.0;
+    for (Finding const& f : findings) {
+        sum += std::ranges::count(kinds, f.kind) > 0 ? f.amount : 0.0;
+    }
+    return sum;
+}
+
+/// Differences at a river's vertices.
+RiverOff off_of(std::int64_t feature, std::vector<double>& off_m) {
+    std::ranges::sort(off_m);
+    std::size_t const last = off_m.size() - 1;
+    return {feature, std::ssize(off_m), off_m[last / 2], off_m[last * 99 / 100], off_m[last]};
+}
+
+/// The feature at a length along an arc; 0: none.
+std::int64_t feature_at(std::vector<Stretch> const& stretches, double along_m) {
+    for (Stretch const& stretch : stretches) {
+        if (along_m <= stretch.to_m) {
+            return stretch.feature;
+        }
+    }
+    return stretches.empty() ? 0 : stretches.back().feature;
+}
+
+/// Sums up differences by feature, and sorts them.
+void sum_up(std::map<std::int64_t, std::vector<double>>& off_m, GivenHeights& given) {
+    constexpr std::size_t most = 1000;
+    std::vector<double> all;
+    for (auto& [feature, some] : off_m) {
+        all.insert(all.end(), some.begin(), some.end());
+        given.rivers.push_back(off_of(feature, some));
+    }
+    if (all.empty()) {
+        return;
+    }
+    RiverOff const whole = off_of(0, all);
+    given.median_off_m = whole.median_off_m;
+    given.p99_off_m = whole.p99_off_m;
+    given.most_off_m = whole.most_off_m;
+    std::ranges::stable_sort(given.rivers, std::greater<>(), &RiverOff::most_off_m);
+    given.rivers.resize(std::min(most, given.rivers.size()));
+}
+
 } // namespace
 
 std::vector<Finding> direction_findings(network::Directions const& directions, std::string const& by_dem,
@@ -92,33 +151,6 @@ std::vector<Finding> direction_findings(network::Directions const& directions, s
     }
     return found;
 }
-
-namespace {
-
-struct Words {
-    char const* key;
-    char const* text;
-};
-
-/// By LeftOut.
-constexpr std::array<Words, 8> words{{{"filter", "no natural watercourses"},
-                                      {"coast", "coastlines"},
-                                      {"grid", "beyond the grid"},
-                                      {"duplicate", "duplicates"},
-                                      {"too_short", "too short"},
-                                      {"divergence", "divergences"},
-                                      {"pruned", "pruned"},
-                                      {"head", "cut at heads"}}};
-
-double sum_of(std::vector<Finding> const& findings, std::initializer_list<FindingKind> kinds) {
-    double sum = 0.0;
-    for (Finding const& f : findings) {
-        sum += std::ranges::count(kinds, f.kind) > 0 ? f.amount : 0.0;
-    }
-    return sum;
-}
-
-} // namespace
 
 char const* key_of(LeftOut cause) {
     return words[static_cast<std::size_t>(cause)].key;
@@ -165,46 +197,6 @@ GivenLength given_length(std::vector<Finding> const& of_plan, Planform const& pl
     }
     return given;
 }
-
-namespace {
-
-/// Differences at a river's vertices.
-RiverOff off_of(std::int64_t feature, std::vector<double>& off_m) {
-    std::ranges::sort(off_m);
-    std::size_t const last = off_m.size() - 1;
-    return {feature, std::ssize(off_m), off_m[last / 2], off_m[last * 99 / 100], off_m[last]};
-}
-
-/// The feature at a length along an arc; 0: none.
-std::int64_t feature_at(std::vector<Stretch> const& stretches, double along_m) {
-    for (Stretch const& stretch : stretches) {
-        if (along_m <= stretch.to_m) {
-            return stretch.feature;
-        }
-    }
-    return stretches.empty() ? 0 : stretches.back().feature;
-}
-
-/// Sums up differences by feature, and sorts them.
-void sum_up(std::map<std::int64_t, std::vector<double>>& off_m, GivenHeights& given) {
-    constexpr std::size_t most = 1000;
-    std::vector<double> all;
-    for (auto& [feature, some] : off_m) {
-        all.insert(all.end(), some.begin(), some.end());
-        given.rivers.push_back(off_of(feature, some));
-    }
-    if (all.empty()) {
-        return;
-    }
-    RiverOff const whole = off_of(0, all);
-    given.median_off_m = whole.median_off_m;
-    given.p99_off_m = whole.p99_off_m;
-    given.most_off_m = whole.most_off_m;
-    std::ranges::stable_sort(given.rivers, std::greater<>(), &RiverOff::most_off_m);
-    given.rivers.resize(std::min(most, given.rivers.size()));
-}
-
-} // namespace
 
 std::optional<GivenHeights> given_heights(recipe::NetworkRecipe const& wanted, RiverLines const& lines,
                                           Planform const& planform, Terrain const& terrain) {

@@ -83,6 +83,46 @@ measure::NetworkLaws laws_of(ElevatedNetwork const& network, NetworkOrders const
     return measure::network_laws(network, orders, areas, params);
 }
 
+/// [m] A chord that most links are long enough for.
+double chord_of(measure::LinkLengths const& links) {
+    double const shorter = std::fmin(links.exterior.median_m, links.interior.median_m); // NaN: there are none
+    return 0.5 * shorter;
+}
+
+using Details = std::vector<std::pair<std::string_view, double>>;
+
+LawRow row(std::string_view key, std::string_view name, std::string_view unit, std::optional<double> value,
+           Details details) {
+    if (value && !std::isfinite(*value)) {
+        value.reset();
+    }
+    return {key, name, unit, value, std::move(details), measure::natural_range(key)};
+}
+
+LawRow horton_row(std::string_view key, std::string_view name, std::optional<measure::HortonRatio> const& law,
+                  double streams) {
+    return row(key, name, "", law ? std::optional(law->ratio) : std::nullopt,
+               law ? Details{{"r2", law->r2}, {"orders", static_cast<double>(law->orders)}, {"streams", streams}}
+                   : Details{});
+}
+
+LawRow power_row(std::string_view key, std::string_view name, std::optional<measure::PowerLaw> const& law,
+                 double sign) {
+    return row(key, name, "", law ? std::optional(sign * law->exponent) : std::nullopt,
+               law ? Details{{"r2", law->r2},
+                             {"error", law->exponent_error},
+                             {"bins", static_cast<double>(law->bins.size())},
+                             {"arcs", static_cast<double>(law->places)},
+                             {"left_out", static_cast<double>(law->left_out)},
+                             {"coefficient", law->coefficient}}
+                   : Details{});
+}
+
+LawRow length_row(std::string_view key, std::string_view name, measure::LengthSpread const& spread) {
+    return row(key, name, "m", spread.mean_m,
+               {{"links", static_cast<double>(spread.links)}, {"median_m", spread.median_m}, {"cv", spread.cv}});
+}
+
 } // namespace
 
 DemLaws laws_of_dem(Raster<float> const& dem, flow::FlowField const& drainage, Raster<float> const& flow_length,
@@ -139,16 +179,6 @@ RiverLaws laws_of_terrain(Terrain const& terrain, std::int64_t land_cells, Run c
     return found;
 }
 
-namespace {
-
-/// [m] A chord that most links are long enough for.
-double chord_of(measure::LinkLengths const& links) {
-    double const shorter = std::fmin(links.exterior.median_m, links.interior.median_m); // NaN: there are none
-    return 0.5 * shorter;
-}
-
-} // namespace
-
 LineLaws laws_of_lines(MeasuredRivers const& rivers) {
     StreamNetwork const& plan = rivers.network.planform;
     refuse_if<BadInput>(plan.arc_count() == 0, "make.laws_of_lines: the network has no arcs");
@@ -171,44 +201,6 @@ LineLaws laws_of_lines(MeasuredRivers const& rivers) {
     }
     return found;
 }
-
-namespace {
-
-using Details = std::vector<std::pair<std::string_view, double>>;
-
-LawRow row(std::string_view key, std::string_view name, std::string_view unit, std::optional<double> value,
-           Details details) {
-    if (value && !std::isfinite(*value)) {
-        value.reset();
-    }
-    return {key, name, unit, value, std::move(details), measure::natural_range(key)};
-}
-
-LawRow horton_row(std::string_view key, std::string_view name, std::optional<measure::HortonRatio> const& law,
-                  double streams) {
-    return row(key, name, "", law ? std::optional(law->ratio) : std::nullopt,
-               law ? Details{{"r2", law->r2}, {"orders", static_cast<double>(law->orders)}, {"streams", streams}}
-                   : Details{});
-}
-
-LawRow power_row(std::string_view key, std::string_view name, std::optional<measure::PowerLaw> const& law,
-                 double sign) {
-    return row(key, name, "", law ? std::optional(sign * law->exponent) : std::nullopt,
-               law ? Details{{"r2", law->r2},
-                             {"error", law->exponent_error},
-                             {"bins", static_cast<double>(law->bins.size())},
-                             {"arcs", static_cast<double>(law->places)},
-                             {"left_out", static_cast<double>(law->left_out)},
-                             {"coefficient", law->coefficient}}
-                   : Details{});
-}
-
-LawRow length_row(std::string_view key, std::string_view name, measure::LengthSpread const& spread) {
-    return row(key, name, "m", spread.mean_m,
-               {{"links", static_cast<double>(spread.links)}, {"median_m", spread.median_m}, {"cv", spread.cv}});
-}
-
-} // namespace
 
 std::vector<LawRow> law_rows(measure::NetworkLaws const& laws) {
     auto const& tokunaga = laws.tokunaga;

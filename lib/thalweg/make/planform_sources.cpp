@@ -75,18 +75,6 @@ growth::Branch branch_of(growth::Cluster const& cluster, recipe::Recipe const& r
     return growth::pick_branch(cluster, params);
 }
 
-} // namespace
-
-growth::Cluster cluster_of(recipe::Recipe const& recipe, Run const& run) {
-    recipe::Recipe const read = recipe::recipe_for_cluster(recipe);
-    return kept_or_made(
-        run, "cluster", [&] { return recipe::cache_key(read); },
-        [&] { return growth::grow_dla(read.network->dla, run); },
-        [](growth::Cluster const& cluster) { return static_cast<std::int64_t>(cluster.cells.size() * sizeof(Cell)); });
-}
-
-namespace {
-
 // One arm of a cluster that grew by diffusion-limited aggregation, thinned and traced.
 SourceRivers rivers_of_cluster(recipe::Recipe const& recipe, StageLog& stage_log, Run const& run) {
     recipe::NetworkRecipe const& wanted = *recipe.network;
@@ -565,6 +553,14 @@ SourceRivers rivers_by_source(RiversInput const& in, StageLog& stage_log, Run co
 }
 
 } // namespace
+
+growth::Cluster cluster_of(recipe::Recipe const& recipe, Run const& run) {
+    recipe::Recipe const read = recipe::recipe_for_cluster(recipe);
+    return kept_or_made(
+        run, "cluster", [&] { return recipe::cache_key(read); },
+        [&] { return growth::grow_dla(read.network->dla, run); },
+        [](growth::Cluster const& cluster) { return static_cast<std::int64_t>(cluster.cells.size() * sizeof(Cell)); });
+}
 
 SourceRivers rivers_of_source(RiversInput const& in, StageLog& stage_log, Run const& run) {
     SourceRivers rivers = rivers_by_source(in, stage_log, run);

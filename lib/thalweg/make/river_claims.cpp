@@ -23,6 +23,72 @@ bool lies_on(Grid const& grid, Vec3 const& at) {
     return at.x >= grid.west && at.x <= grid.east() && at.y >= grid.south() && at.y <= grid.north; // never NaN
 }
 
+using Places = std::unordered_map<std::int64_t, std::int64_t>;
+
+std::int64_t place_in(Places const& places, std::int64_t key) {
+    auto const found = places.find(key);
+    return found == places.end() ? -1 : found->second;
+}
+
+bool inside(std::vector<Vec3> const& line, Grid const& grid) {
+    return std::all_of(line.begin(), line.end(), [&](Vec3 const& v) {
+        return v.x >= grid.west && v.x <= grid.east() && v.y >= grid.south() && v.y <= grid.north;
+    });
+}
+
+bool is_somewhere(std::vector<Vec3> const& line) {
+    return std::all_of(line.begin(), line.end(), [](Vec3 const& v) { return is_finite(in_plan(v)); });
+}
+
+std::vector<std::vector<Vec2>> parts_in(std::vector<Vec3> const& line, Grid const& grid) {
+    if (line.empty() || !is_somewhere(line)) {
+        return {};
+    }
+    if (inside(line, grid)) { // bit for bit
+        return {in_plan(line)};
+    }
+    RiverLines whole;
+    whole.lines.push_back({0, line, {}, 0, 0});
+    std::vector<std::vector<Vec2>> parts;
+    for (RiverLine const& part : network::clip_lines(whole, grid).lines) {
+        parts.push_back(in_plan(part.vertices));
+    }
+    return parts;
+}
+
+/// By reach: the basin of the file if it has any; else 1, 2, ... by the node at its outlet.
+std::vector<std::int64_t> basins_of(NetworkFile const& file, std::vector<flow::Reach> const& reaches,
+                                    std::vector<std::size_t> const& first_arc) {
+    std::vector<std::int64_t> basins;
+    bool const told = file.says.basin && std::all_of(file.arcs.begin(), file.arcs.end(),
+                                                     [](NetworkFile::FileArc const& a) { return a.basin > 0; });
+    if (told) {
+        for (std::size_t const arc : first_arc) {
+            basins.push_back(file.arcs[arc].basin);
+        }
+        return basins;
+    }
+    basins.assign(reaches.size(), 0);
+    Places known;
+    std::vector<std::size_t> way;
+    for (std::size_t start = 0; start < reaches.size(); ++start) {
+        way.clear();
+        std::size_t at = start;
+        while (basins[at] == 0 && reaches[at].ds >= 0) {
+            way.push_back(at);
+            at = static_cast<std::size_t>(reaches[at].ds);
+        }
+        if (basins[at] == 0) {
+            auto const next = static_cast<std::int64_t>(known.size()) + 1;
+            basins[at] = known.try_emplace(file.arcs[first_arc[at]].to_node, next).first->second;
+        }
+        for (std::size_t const above : way) {
+            basins[above] = basins[at];
+        }
+    }
+    return basins;
+}
+
 } // namespace
 
 Mask still_cells(NetworkFile const& network, Grid const& grid) {
@@ -152,76 +218,6 @@ Valley honoured_valley(Valley valley, StreamNetwork const& network, Raster<float
     }
     return valley;
 }
-
-namespace {
-
-using Places = std::unordered_map<std::int64_t, std::int64_t>;
-
-std::int64_t place_in(Places const& places, std::int64_t key) {
-    auto const found = places.find(key);
-    return found == places.end() ? -1 : found->second;
-}
-
-bool inside(std::vector<Vec3> const& line, Grid const& grid) {
-    return std::all_of(line.begin(), line.end(), [&](Vec3 const& v) {
-        return v.x >= grid.west && v.x <= grid.east() && v.y >= grid.south() && v.y <= grid.north;
-    });
-}
-
-bool is_somewhere(std::vector<Vec3> const& line) {
-    return std::all_of(line.begin(), line.end(), [](Vec3 const& v) { return is_finite(in_plan(v)); });
-}
-
-std::vector<std::vector<Vec2>> parts_in(std::vector<Vec3> const& line, Grid const& grid) {
-    if (line.empty() || !is_somewhere(line)) {
-        return {};
-    }
-    if (inside(line, grid)) { // bit for bit
-        return {in_plan(line)};
-    }
-    RiverLines whole;
-    whole.lines.push_back({0, line, {}, 0, 0});
-    std::vector<std::vector<Vec2>> parts;
-    for (RiverLine const& part : network::clip_lines(whole, grid).lines) {
-        parts.push_back(in_plan(part.vertices));
-    }
-    return parts;
-}
-
-/// By reach: the basin of the file if it has any; else 1, 2, ... by the node at its outlet.
-std::vector<std::int64_t> basins_of(NetworkFile const& file, std::vector<flow::Reach> const& reaches,
-                                    std::vector<std::size_t> const& first_arc) {
-    std::vector<std::int64_t> basins;
-    bool const told = file.says.basin && std::all_of(file.arcs.begin(), file.arcs.end(),
-                                                     [](NetworkFile::FileArc const& a) { return a.basin > 0; });
-    if (told) {
-        for (std::size_t const arc : first_arc) {
-            basins.push_back(file.arcs[arc].basin);
-        }
-        return basins;
-    }
-    basins.assign(reaches.size(), 0);
-    Places known;
-    std::vector<std::size_t> way;
-    for (std::size_t start = 0; start < reaches.size(); ++start) {
-        way.clear();
-        std::size_t at = start;
-        while (basins[at] == 0 && reaches[at].ds >= 0) {
-            way.push_back(at);
-            at = static_cast<std::size_t>(reaches[at].ds);
-        }
-        if (basins[at] == 0) {
-            auto const next = static_cast<std::int64_t>(known.size()) + 1;
-            basins[at] = known.try_emplace(file.arcs[first_arc[at]].to_node, next).first->second;
-        }
-        for (std::size_t const above : way) {
-            basins[above] = basins[at];
-        }
-    }
-    return basins;
-}
-
-} // namespace
 
 FileReaches reaches_of_file(NetworkFile const& file, Grid const& grid) {
     FileReaches result;

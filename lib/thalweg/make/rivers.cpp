@@ -52,25 +52,6 @@ Elevated elevated(recipe::Recipe const& recipe, Planform const& planform, Run co
     return {std::move(set.network), set.report};
 }
 
-} // namespace
-
-NetworkOrders order_rivers(StreamNetwork const& network, RiverClues const& clues) {
-    network::StemClues of_arcs;
-    for (Arc const& arc : network.arcs()) {
-        auto const feature = static_cast<std::size_t>(arc.feature);
-        of_arcs.arcs.push_back(feature < clues.size() ? clues[feature] : network::StemClues::OfArc{});
-    }
-    return network::order(network, network::main_inflows(network, of_arcs));
-}
-
-Rivers rivers_of(ElevatedNetwork network, network::RiverTypes types, RiverClues clues) {
-    NetworkOrders orders = order_rivers(network.planform, clues);
-    network::StreamCounts streams = network::count_streams(network.planform);
-    return {std::move(network), std::move(types), std::move(orders), std::move(streams), std::move(clues)};
-}
-
-namespace {
-
 constexpr float no_limit = std::numeric_limits<float>::infinity();
 
 /// The height of a DEM in a cell of a river.
@@ -184,6 +165,21 @@ RaisedRivers laid_on_raster(recipe::Recipe const& recipe, Raster<float> const& d
 }
 
 } // namespace
+
+NetworkOrders order_rivers(StreamNetwork const& network, RiverClues const& clues) {
+    network::StemClues of_arcs;
+    for (Arc const& arc : network.arcs()) {
+        auto const feature = static_cast<std::size_t>(arc.feature);
+        of_arcs.arcs.push_back(feature < clues.size() ? clues[feature] : network::StemClues::OfArc{});
+    }
+    return network::order(network, network::main_inflows(network, of_arcs));
+}
+
+Rivers rivers_of(ElevatedNetwork network, network::RiverTypes types, RiverClues clues) {
+    NetworkOrders orders = order_rivers(network.planform, clues);
+    network::StreamCounts streams = network::count_streams(network.planform);
+    return {std::move(network), std::move(types), std::move(orders), std::move(streams), std::move(clues)};
+}
 
 RaisedRivers raise_rivers(recipe::Recipe const& recipe, Raster<float> const& dem, Planform const& planform,
                           StageLog& stage_log, Run const& run) {

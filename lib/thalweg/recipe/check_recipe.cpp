@@ -81,40 +81,6 @@ std::string words_for_unused(std::string const& path, Value const& value, std::s
                        toml_text(value), place.empty() ? "" : " (" + place + ")", lacks);
 }
 
-} // namespace
-
-std::vector<UnusedKey> unused_keys(Recipe const& recipe) {
-    std::vector<UnusedKey> found;
-    for (Key const& key : all_keys()) {
-        std::size_t const count = key.use(recipe) ? 0 : key.part->count(recipe);
-        for (std::size_t item = 0; item < count; ++item) {
-            std::string const path = key.place(item);
-            auto const value = key.take(recipe, item);
-            auto const place = recipe.set_at.find(path);
-            bool const is_set = place != recipe.set_at.end();
-            if (value && !is_default(key, *value, is_set)) {
-                found.push_back(
-                    {path, words_for_unused(path, *value, is_set ? place->second : "", key.use.lacks(recipe))});
-            }
-        }
-    }
-    return found;
-}
-
-void refuse_unused_keys(Recipe const& resolved) {
-    std::vector<std::string> faults;
-    for (UnusedKey const& key : unused_keys(resolved)) {
-        if (resolved.set_at.contains(key.path)) {
-            faults.push_back(key.words);
-        }
-    }
-    if (!faults.empty()) {
-        throw BadParameter(fmt::format("recipe: {}", fmt::join(faults, "\nrecipe: ")));
-    }
-}
-
-namespace {
-
 /// What does not fit together, for people.
 using Faults = std::vector<std::string>;
 
@@ -286,6 +252,36 @@ void check_cells_of_detail(Recipe const& recipe, Faults& faults) {
 }
 
 } // namespace
+
+std::vector<UnusedKey> unused_keys(Recipe const& recipe) {
+    std::vector<UnusedKey> found;
+    for (Key const& key : all_keys()) {
+        std::size_t const count = key.use(recipe) ? 0 : key.part->count(recipe);
+        for (std::size_t item = 0; item < count; ++item) {
+            std::string const path = key.place(item);
+            auto const value = key.take(recipe, item);
+            auto const place = recipe.set_at.find(path);
+            bool const is_set = place != recipe.set_at.end();
+            if (value && !is_default(key, *value, is_set)) {
+                found.push_back(
+                    {path, words_for_unused(path, *value, is_set ? place->second : "", key.use.lacks(recipe))});
+            }
+        }
+    }
+    return found;
+}
+
+void refuse_unused_keys(Recipe const& resolved) {
+    std::vector<std::string> faults;
+    for (UnusedKey const& key : unused_keys(resolved)) {
+        if (resolved.set_at.contains(key.path)) {
+            faults.push_back(key.words);
+        }
+    }
+    if (!faults.empty()) {
+        throw BadParameter(fmt::format("recipe: {}", fmt::join(faults, "\nrecipe: ")));
+    }
+}
 
 void check_recipe(Recipe const& recipe) {
     Faults faults;

@@ -47,6 +47,14 @@ std::string section_name(std::function<bool(Recipe const&)> const& has_section) 
     return {};
 }
 
+template <class T> T* held(std::optional<T>& section) {
+    return section ? &*section : nullptr;
+}
+
+template <class Section, class Part> Part* within(std::optional<Section>& section, Part Section::*part) {
+    return section ? &((*section).*part) : nullptr;
+}
+
 } // namespace
 
 std::optional<double> number_in(Field const& field) {
@@ -254,18 +262,6 @@ Condition ask::writes(OutputFiles files) {
 }
 
 // Parts of a recipe.
-
-namespace {
-
-template <class T> T* held(std::optional<T>& section) {
-    return section ? &*section : nullptr;
-}
-
-template <class Section, class Part> Part* within(std::optional<Section>& section, Part Section::*part) {
-    return section ? &((*section).*part) : nullptr;
-}
-
-} // namespace
 
 template <> NetworkRecipe* part_of(Recipe& recipe) {
     return held(recipe.network);

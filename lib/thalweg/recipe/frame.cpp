@@ -107,6 +107,33 @@ void require(std::string const& what, std::int64_t bytes, char const* advice) {
     }
 }
 
+struct Vertex {
+    double along = 0.0; ///< its coordinate on the current axis
+    Vec3 at;
+    std::int64_t feature = 0;
+};
+
+[[noreturn]] void refuse(Vertex const& stray, double gap_m, RiverLines const& lines) {
+    throw BadInput(
+        fmt::format("grid: river {} in {} has a vertex at ({:.1f}, {:.1f}), {:.0f} km from the others, so that "
+                    "a grid around all would be empty for the most part: correct it, or set grid.width, "
+                    "grid.height and grid.clip = true",
+                    stray.feature, lines.name, stray.at.x, stray.at.y, gap_m / 1000.0));
+}
+
+/// Scans sorted vertices from the beginning.
+void look(std::vector<Vertex> const& sorted, RiverLines const& lines) {
+    constexpr double times_as_far = 20.0;
+    std::size_t const few = std::max<std::size_t>(2, sorted.size() / 100);
+    for (std::size_t k = 1; k <= few; ++k) {
+        double const gap = std::fabs(sorted[k].along - sorted[k - 1].along);
+        double const others = std::fabs(sorted.back().along - sorted[k].along);
+        if (others > 0.0 && gap > times_as_far * others) {
+            refuse(sorted[k - 1], gap, lines);
+        }
+    }
+}
+
 } // namespace
 
 std::int64_t bytes_needed(std::int64_t cells) {
@@ -210,37 +237,6 @@ Grid frame_tree(std::int64_t links, GridRecipe const& wanted) {
     check_memory(grid.width, grid.height);
     return grid;
 }
-
-namespace {
-
-struct Vertex {
-    double along = 0.0; ///< its coordinate on the current axis
-    Vec3 at;
-    std::int64_t feature = 0;
-};
-
-[[noreturn]] void refuse(Vertex const& stray, double gap_m, RiverLines const& lines) {
-    throw BadInput(
-        fmt::format("grid: river {} in {} has a vertex at ({:.1f}, {:.1f}), {:.0f} km from the others, so that "
-                    "a grid around all would be empty for the most part: correct it, or set grid.width, "
-                    "grid.height and grid.clip = true",
-                    stray.feature, lines.name, stray.at.x, stray.at.y, gap_m / 1000.0));
-}
-
-/// Scans sorted vertices from the beginning.
-void look(std::vector<Vertex> const& sorted, RiverLines const& lines) {
-    constexpr double times_as_far = 20.0;
-    std::size_t const few = std::max<std::size_t>(2, sorted.size() / 100);
-    for (std::size_t k = 1; k <= few; ++k) {
-        double const gap = std::fabs(sorted[k].along - sorted[k - 1].along);
-        double const others = std::fabs(sorted.back().along - sorted[k].along);
-        if (others > 0.0 && gap > times_as_far * others) {
-            refuse(sorted[k - 1], gap, lines);
-        }
-    }
-}
-
-} // namespace
 
 void require_no_stray_vertex(RiverLines const& lines) {
     constexpr std::size_t fewest = 20;

@@ -81,6 +81,15 @@ std::string title_of_path(std::string const& path) {
     return is_utf8(name) ? name : "rivers";
 }
 
+bool is_raster(std::string const& path) {
+    std::error_code ignored;
+    try {
+        return !fs::is_directory(path, ignored) && io::content_of(path).kind == io::FileContent::Kind::raster;
+    } catch (BadInput const&) { // it holds nothing of use
+        return false;
+    }
+}
+
 } // namespace
 
 Recipe rivers_recipe(std::string const& path) {
@@ -95,19 +104,6 @@ Recipe rivers_recipe(std::string const& path) {
     recipe.output.title = title_of_path(path);
     return recipe;
 }
-
-namespace {
-
-bool is_raster(std::string const& path) {
-    std::error_code ignored;
-    try {
-        return !fs::is_directory(path, ignored) && io::content_of(path).kind == io::FileContent::Kind::raster;
-    } catch (BadInput const&) { // it holds nothing of use
-        return false;
-    }
-}
-
-} // namespace
 
 Recipe raster_recipe(std::string const& path) {
     Recipe recipe;

@@ -177,20 +177,6 @@ void require_room(std::int64_t links, Grid const& grid, double spacing_cells) {
         links, grid.width, grid.height, apart, kept, more_room);
 }
 
-} // namespace
-
-growth::TokunagaParams tree_of(Recipe const& recipe) {
-    TokunagaRecipe const& wanted = recipe.network->tokunaga;
-    growth::TokunagaParams params;
-    params.seed = recipe.seed;
-    params.generator = wanted.generator;
-    params.order = wanted.order;
-    params.rule = wanted.rule;
-    return params;
-}
-
-namespace {
-
 // Plans a tree that fills the grid or a region.
 Plan plan_tree(Recipe recipe, StageLog& stage_log, Run const& run) {
     TokunagaRecipe const& wanted = recipe.network->tokunaga;
@@ -502,6 +488,16 @@ OnRaster with_raster(Recipe const& recipe, StageLog& stage_log, Run const& run) 
 }
 
 } // namespace
+
+growth::TokunagaParams tree_of(Recipe const& recipe) {
+    TokunagaRecipe const& wanted = recipe.network->tokunaga;
+    growth::TokunagaParams params;
+    params.seed = recipe.seed;
+    params.generator = wanted.generator;
+    params.order = wanted.order;
+    params.rule = wanted.rule;
+    return params;
+}
 
 Plan resolve(Recipe const& recipe, Run const& run) {
     check_recipe(recipe);

@@ -55,6 +55,122 @@ Raster<float> valued_polygons(Polygons const& polygons, Grid const& grid) {
     return field;
 }
 
+/// The reason for the cell size.
+std::string reason(network::ChosenCell const& chosen) {
+    std::string words = fmt::format(", from {} lines of {:.4g} km in all, {:.2g} km apart", chosen.lines,
+                                    chosen.length_m / 1000.0, chosen.spacing_m / 1000.0);
+    return words;
+}
+
+/// Warns where rivers are too close together for the cells.
+void warn_of_crowding(network::ChosenCell const& chosen, StageLog& stage_log) {
+    constexpr double worth_a_word = 0.002;
+    if (chosen.crowded_share <= worth_a_word) {
+        return;
+    }
+    stage_log.find(
+        {.kind = "crowded_rivers",
+         .amount = chosen.crowded_share,
+         .text = fmt::format("{:.1f} % of the river cells lie beside another river", 100.0 * chosen.crowded_share),
+         .remedy = chosen.enough_m > 0.0 ? fmt::format("--set grid.cell={} keeps them apart", chosen.enough_m)
+                                         : "Take a part of the rivers, or set a smaller grid.cell",
+         .key = "grid.cell"});
+}
+
+/// A recipe with a mean slope, if it has neither one nor a relief, and the rivers have no heights.
+Recipe with_slope(Recipe recipe, bool has_z) {
+    if (!in_equilibrium(recipe)) {
+        return recipe;
+    }
+    Heights const heights = recipe.network->heights;
+    bool const graded = heights == Heights::graded || (heights == Heights::automatic && !has_z);
+    EquilibriumRecipe& wanted = recipe.surface->equilibrium;
+    double const usual = usual_slope_deg(recipe.grid.cell_m);
+    if (graded && !wanted.mean_slope_deg && wanted.like.empty() && !(recipe.surface->dilate.relief_m > 0.0) &&
+        usual != surface::EquilibriumParams{}.mean_slope_deg) {
+        wanted.mean_slope_deg = usual;
+    }
+    return recipe;
+}
+
+/// Adds the lakes of surface.lakes, through which rivers run on.
+RiverLines with_lakes_of_surface(RiverLines lines, Recipe const& recipe, Run const& run) {
+    if (!recipe.surface || recipe.surface->equilibrium.lakes.empty()) {
+        return lines;
+    }
+    Polygons lakes = io::read_polygons(file_in(recipe, recipe.surface->equilibrium.lakes), lines.crs, run);
+    for (Polygon& lake : lakes.polygons) {
+        lines.lakes.push_back(std::move(lake));
+    }
+    lines.lakes = io::united(std::move(lines.lakes), io::gap_between_sheets_m);
+    return lines;
+}
+
+RiverLines without_placeholders(RiverLines lines) {
+    network::WithoutPlaceholders checked = network::without_placeholders(std::move(lines));
+    if (checked.vertices > 0) {
+        Finding found = placeholder_finding(checked);
+        found.key = "network.lines.path";
+        checked.lines.findings.push_back(std::move(found));
+    }
+    return std::move(checked.lines);
+}
+
+/// The grid of a recipe, where a DEM settles what it leaves open: its own cells, or as large ones in another coordinate
+/// system, from its north-western corner to its south-eastern one.
+Grid grid_of_raster(Raster<float> const& dem, GridRecipe const& wanted, std::string const& what) {
+    Grid const& own = dem.grid();
+    bool const is_same = io::same_crs(own.crs, wanted.crs, what, "the grid");
+    Grid grid = own;
+    grid.crs = wanted.crs;
+    grid.cell_m = wanted.cell_m > 0.0 ? wanted.cell_m : is_same ? own.cell_m : io::ground_cell(own).side_m;
+    if (!is_same) {
+        grid.west = wanted.origin ? (*wanted.origin)[0] : 0.0;
+        grid.north = wanted.origin ? (*wanted.origin)[1] : 0.0;
+        grid = io::grid_around(dem, grid, what);
+    }
+    double const east = grid.west + static_cast<double>(grid.width) * (is_same ? own.cell_m : grid.cell_m);
+    double const south = grid.north - static_cast<double>(grid.height) * (is_same ? own.cell_m : grid.cell_m);
+    if (wanted.origin) {
+        grid.west = (*wanted.origin)[0];
+        grid.north = (*wanted.origin)[1];
+    }
+    constexpr double least_cells = 0.01; // as in io::same_lattice
+    auto const whole = [&](double m) { return std::floor(m / grid.cell_m + least_cells); };
+    double const width = wanted.width > 0 ? static_cast<double>(wanted.width) : whole(east - grid.west);
+    double const height = wanted.height > 0 ? static_cast<double>(wanted.height) : whole(grid.north - south);
+    refuse_if<BadInput>(!(width >= 1.0 && height >= 1.0),
+                        "{} holds no cell of {} m from ({}, {}) to the east and south: it reaches to ({}, {})", what,
+                        grid.cell_m, grid.west, grid.north, east, south);
+    refuse_if<BadInput>(!(width <= 1e6 && height <= 1e6),
+                        "{} has {:.3g} x {:.3g} cells of {} m: give a larger grid.cell", what, width, height,
+                        grid.cell_m);
+    grid.width = static_cast<std::int64_t>(width);
+    grid.height = static_cast<std::int64_t>(height);
+    return grid;
+}
+
+/// A recipe's grid with the frame of this one.
+GridRecipe on_cells_of(Grid const& grid, GridRecipe wanted) {
+    check_memory(grid.width, grid.height);
+    wanted.width = grid.width;
+    wanted.height = grid.height;
+    wanted.cell_m = grid.cell_m;
+    wanted.origin = {grid.west, grid.north};
+    return wanted;
+}
+
+std::string words_for_cells(Grid const& grid) {
+    return fmt::format("{}x{} cells of {:.6g} in {:.60}", grid.width, grid.height, grid.cell_m, grid.crs);
+}
+
+/// The CRS of a DEM that names none: that of the rivers beside it, if they have one.
+std::string crs_of_rivers(Recipe const& recipe, Run const& run) {
+    bool const has_lines = from_lines(recipe);
+    std::string const crs = has_lines ? read_lines(recipe, run.quiet()).crs : "";
+    return crs.empty() ? "EPSG:32631" : crs;
+}
+
 } // namespace
 
 Mask read_part(io::Source const& source, Grid const& grid, Run const& run) {
@@ -207,48 +323,6 @@ AgainstOnGrid against_on_grid(Recipe const& recipe, Grid const& grid, StageLog& 
     return found;
 }
 
-namespace {
-
-/// The reason for the cell size.
-std::string reason(network::ChosenCell const& chosen) {
-    std::string words = fmt::format(", from {} lines of {:.4g} km in all, {:.2g} km apart", chosen.lines,
-                                    chosen.length_m / 1000.0, chosen.spacing_m / 1000.0);
-    return words;
-}
-
-/// Warns where rivers are too close together for the cells.
-void warn_of_crowding(network::ChosenCell const& chosen, StageLog& stage_log) {
-    constexpr double worth_a_word = 0.002;
-    if (chosen.crowded_share <= worth_a_word) {
-        return;
-    }
-    stage_log.find(
-        {.kind = "crowded_rivers",
-         .amount = chosen.crowded_share,
-         .text = fmt::format("{:.1f} % of the river cells lie beside another river", 100.0 * chosen.crowded_share),
-         .remedy = chosen.enough_m > 0.0 ? fmt::format("--set grid.cell={} keeps them apart", chosen.enough_m)
-                                         : "Take a part of the rivers, or set a smaller grid.cell",
-         .key = "grid.cell"});
-}
-
-/// A recipe with a mean slope, if it has neither one nor a relief, and the rivers have no heights.
-Recipe with_slope(Recipe recipe, bool has_z) {
-    if (!in_equilibrium(recipe)) {
-        return recipe;
-    }
-    Heights const heights = recipe.network->heights;
-    bool const graded = heights == Heights::graded || (heights == Heights::automatic && !has_z);
-    EquilibriumRecipe& wanted = recipe.surface->equilibrium;
-    double const usual = usual_slope_deg(recipe.grid.cell_m);
-    if (graded && !wanted.mean_slope_deg && wanted.like.empty() && !(recipe.surface->dilate.relief_m > 0.0) &&
-        usual != surface::EquilibriumParams{}.mean_slope_deg) {
-        wanted.mean_slope_deg = usual;
-    }
-    return recipe;
-}
-
-} // namespace
-
 double usual_slope_deg(double cell_m) {
     constexpr double finest_m = 30.0;
     constexpr double half_m = 400.0;
@@ -262,23 +336,6 @@ double usual_slope_deg(double cell_m) {
     double const degrees = portable::atan2(tangent, 1.0) / portable::pi * 180.0;
     return std::max(0.5, std::round(2.0 * degrees) / 2.0);
 }
-
-namespace {
-
-/// Adds the lakes of surface.lakes, through which rivers run on.
-RiverLines with_lakes_of_surface(RiverLines lines, Recipe const& recipe, Run const& run) {
-    if (!recipe.surface || recipe.surface->equilibrium.lakes.empty()) {
-        return lines;
-    }
-    Polygons lakes = io::read_polygons(file_in(recipe, recipe.surface->equilibrium.lakes), lines.crs, run);
-    for (Polygon& lake : lakes.polygons) {
-        lines.lakes.push_back(std::move(lake));
-    }
-    lines.lakes = io::united(std::move(lines.lakes), io::gap_between_sheets_m);
-    return lines;
-}
-
-} // namespace
 
 Finding placeholder_finding(network::WithoutPlaceholders const& found) {
     std::string const heights = found.zeros == found.vertices ? "0"
@@ -298,20 +355,6 @@ Finding placeholder_finding(network::WithoutPlaceholders const& found) {
 std::string crs_of_grid(std::string const& crs) {
     return naming_key("[grid] crs", [&] { return io::projected_crs(crs); });
 }
-
-namespace {
-
-RiverLines without_placeholders(RiverLines lines) {
-    network::WithoutPlaceholders checked = network::without_placeholders(std::move(lines));
-    if (checked.vertices > 0) {
-        Finding found = placeholder_finding(checked);
-        found.key = "network.lines.path";
-        checked.lines.findings.push_back(std::move(found));
-    }
-    return std::move(checked.lines);
-}
-
-} // namespace
 
 RiverLines read_lines(Recipe const& recipe, Run const& run) {
     LinesRecipe const& wanted = recipe.network->lines;
@@ -394,58 +437,6 @@ OnLines settle_on_lines(Recipe recipe, RiverLines const& lines, StageLog& stage_
     return {with_slope(std::move(recipe), lines.has_z), reason(chosen)};
 }
 
-namespace {
-
-/// The grid of a recipe, where a DEM settles what it leaves open: its own cells, or as large ones in another coordinate
-/// system, from its north-western corner to its south-eastern one.
-Grid grid_of_raster(Raster<float> const& dem, GridRecipe const& wanted, std::string const& what) {
-    Grid const& own = dem.grid();
-    bool const is_same = io::same_crs(own.crs, wanted.crs, what, "the grid");
-    Grid grid = own;
-    grid.crs = wanted.crs;
-    grid.cell_m = wanted.cell_m > 0.0 ? wanted.cell_m : is_same ? own.cell_m : io::ground_cell(own).side_m;
-    if (!is_same) {
-        grid.west = wanted.origin ? (*wanted.origin)[0] : 0.0;
-        grid.north = wanted.origin ? (*wanted.origin)[1] : 0.0;
-        grid = io::grid_around(dem, grid, what);
-    }
-    double const east = grid.west + static_cast<double>(grid.width) * (is_same ? own.cell_m : grid.cell_m);
-    double const south = grid.north - static_cast<double>(grid.height) * (is_same ? own.cell_m : grid.cell_m);
-    if (wanted.origin) {
-        grid.west = (*wanted.origin)[0];
-        grid.north = (*wanted.origin)[1];
-    }
-    constexpr double least_cells = 0.01; // as in io::same_lattice
-    auto const whole = [&](double m) { return std::floor(m / grid.cell_m + least_cells); };
-    double const width = wanted.width > 0 ? static_cast<double>(wanted.width) : whole(east - grid.west);
-    double const height = wanted.height > 0 ? static_cast<double>(wanted.height) : whole(grid.north - south);
-    refuse_if<BadInput>(!(width >= 1.0 && height >= 1.0),
-                        "{} holds no cell of {} m from ({}, {}) to the east and south: it reaches to ({}, {})", what,
-                        grid.cell_m, grid.west, grid.north, east, south);
-    refuse_if<BadInput>(!(width <= 1e6 && height <= 1e6),
-                        "{} has {:.3g} x {:.3g} cells of {} m: give a larger grid.cell", what, width, height,
-                        grid.cell_m);
-    grid.width = static_cast<std::int64_t>(width);
-    grid.height = static_cast<std::int64_t>(height);
-    return grid;
-}
-
-/// A recipe's grid with the frame of this one.
-GridRecipe on_cells_of(Grid const& grid, GridRecipe wanted) {
-    check_memory(grid.width, grid.height);
-    wanted.width = grid.width;
-    wanted.height = grid.height;
-    wanted.cell_m = grid.cell_m;
-    wanted.origin = {grid.west, grid.north};
-    return wanted;
-}
-
-std::string words_for_cells(Grid const& grid) {
-    return fmt::format("{}x{} cells of {:.6g} in {:.60}", grid.width, grid.height, grid.cell_m, grid.crs);
-}
-
-} // namespace
-
 Recipe on_grid_of_against(Recipe recipe, Run const& run) {
     std::string const what = fmt::format("output.against = \"{}\"", recipe.output.against);
     GridRecipe& wanted = recipe.grid;
@@ -459,17 +450,6 @@ Recipe on_grid_of_against(Recipe recipe, Run const& run) {
     wanted.clip = true;
     return recipe;
 }
-
-namespace {
-
-/// The CRS of a DEM that names none: that of the rivers beside it, if they have one.
-std::string crs_of_rivers(Recipe const& recipe, Run const& run) {
-    bool const has_lines = from_lines(recipe);
-    std::string const crs = has_lines ? read_lines(recipe, run.quiet()).crs : "";
-    return crs.empty() ? "EPSG:32631" : crs;
-}
-
-} // namespace
 
 OnRaster settle_on_raster(Recipe const& recipe, Run const& run) {
     std::string const what = fmt::format("surface.source = \"{}\"", recipe.surface->source);

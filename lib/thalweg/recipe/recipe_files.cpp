@@ -39,38 +39,6 @@ std::string layer_of(Key const& key, Recipe const& recipe, Item item) {
     return path == nullptr ? "" : std::get<std::string>(*find_key(path)->take(recipe, item));
 }
 
-} // namespace
-
-std::vector<NamedFile> files_of(Recipe const& recipe) {
-    std::vector<NamedFile> files;
-    for (Section const& section : all_sections()) {
-        std::size_t const count = section.count(recipe);
-        for (std::size_t item = 0; item < count; ++item) {
-            for (Key const& key : all_keys()) {
-                bool const is_named = key.part == &section && key.help.is_file;
-                auto const value = is_named ? key.take(recipe, item) : std::optional<Value>();
-                if (value && !std::get<std::string>(*value).empty()) {
-                    files.push_back({&key, item, std::get<std::string>(*value), layer_of(key, recipe, item)});
-                }
-            }
-        }
-    }
-    return files;
-}
-
-Recipe with_absolute_files(Recipe recipe) {
-    for (NamedFile const& file : files_of(recipe)) {
-        if (!is_address(file.name)) {
-            std::filesystem::path const path = std::filesystem::absolute(file_in(recipe, file.name).path);
-            file.key->put(recipe, path.lexically_normal().string(), file.item);
-        }
-    }
-    recipe.folder.clear();
-    return recipe;
-}
-
-namespace {
-
 /// Far from its central meridian a UTM zone measures other lengths than the ground has, as other projections do.
 std::vector<Finding> stretch_of(Grid const& grid) {
     constexpr double much = 0.01;
@@ -104,38 +72,6 @@ bool is_users(Recipe const& recipe, std::string const& path) {
     auto const at = recipe.set_at.find(path);
     return at == recipe.set_at.end() || at->second == "--set";
 }
-
-} // namespace
-
-std::vector<Finding> conversions(Recipe const& recipe, Grid const& grid, Run const& run) {
-    std::vector<NamedFile> const files = files_of(recipe);
-    std::string const lines_crs = recipe.network ? recipe.network->lines.source_crs : "";
-    auto const made_from = [&] {
-        std::string text = fmt::format("{}\n{} {} {} {} {} {}\n", lines_crs, grid.crs, grid.west, grid.north,
-                                       grid.cell_m, grid.width, grid.height);
-        for (NamedFile const& file : files) {
-            text += fmt::format("{} {} {}\n", file.key->place(file.item), file.name, file.layer);
-        }
-        return text + state_of_files(recipe);
-    };
-    auto const look = [&] {
-        std::vector<Finding> notes;
-        for (NamedFile const& file : files) {
-            bool const is_lines = file.key->help.path == "network.lines.path";
-            for (std::string const& words : io::conversions_of(file_in(recipe, file.name), file.layer, grid.crs,
-                                                               is_lines ? lines_crs : std::string())) {
-                notes.push_back({.kind = "converted", .text = words, .key = file.key->place(file.item)});
-            }
-        }
-        append(notes, stretch_of(grid));
-        return notes;
-    };
-    constexpr std::int64_t of_note = 256;
-    return kept_or_made(run, "conversions", made_from, look,
-                        [](auto const& notes) { return of_note * static_cast<std::int64_t>(notes.size()); });
-}
-
-namespace {
 
 /// A file name as TOML and JSON can contain it.
 std::string name_in_utf8(std::string name) {
@@ -171,18 +107,6 @@ bool is_plain(std::string const& path) {
            io::is_recipe_file(path);
 }
 
-} // namespace
-
-std::vector<std::string> file_names(Recipe const& recipe) {
-    std::vector<std::string> names;
-    for (NamedFile const& file : files_of(recipe)) {
-        names.push_back(file.name);
-    }
-    return names;
-}
-
-namespace {
-
 /// Sizes and times of a file and of those beside it that have its name ("dem.tif.aux.xml"), or of all in a folder.
 std::string state_of(fs::path const& path) {
     std::error_code error;
@@ -202,6 +126,70 @@ std::string state_of(fs::path const& path) {
 }
 
 } // namespace
+
+std::vector<NamedFile> files_of(Recipe const& recipe) {
+    std::vector<NamedFile> files;
+    for (Section const& section : all_sections()) {
+        std::size_t const count = section.count(recipe);
+        for (std::size_t item = 0; item < count; ++item) {
+            for (Key const& key : all_keys()) {
+                bool const is_named = key.part == &section && key.help.is_file;
+                auto const value = is_named ? key.take(recipe, item) : std::optional<Value>();
+                if (value && !std::get<std::string>(*value).empty()) {
+                    files.push_back({&key, item, std::get<std::string>(*value), layer_of(key, recipe, item)});
+                }
+            }
+        }
+    }
+    return files;
+}
+
+Recipe with_absolute_files(Recipe recipe) {
+    for (NamedFile const& file : files_of(recipe)) {
+        if (!is_address(file.name)) {
+            std::filesystem::path const path = std::filesystem::absolute(file_in(recipe, file.name).path);
+            file.key->put(recipe, path.lexically_normal().string(), file.item);
+        }
+    }
+    recipe.folder.clear();
+    return recipe;
+}
+
+std::vector<Finding> conversions(Recipe const& recipe, Grid const& grid, Run const& run) {
+    std::vector<NamedFile> const files = files_of(recipe);
+    std::string const lines_crs = recipe.network ? recipe.network->lines.source_crs : "";
+    auto const made_from = [&] {
+        std::string text = fmt::format("{}\n{} {} {} {} {} {}\n", lines_crs, grid.crs, grid.west, grid.north,
+                                       grid.cell_m, grid.width, grid.height);
+        for (NamedFile const& file : files) {
+            text += fmt::format("{} {} {}\n", file.key->place(file.item), file.name, file.layer);
+        }
+        return text + state_of_files(recipe);
+    };
+    auto const look = [&] {
+        std::vector<Finding> notes;
+        for (NamedFile const& file : files) {
+            bool const is_lines = file.key->help.path == "network.lines.path";
+            for (std::string const& words : io::conversions_of(file_in(recipe, file.name), file.layer, grid.crs,
+                                                               is_lines ? lines_crs : std::string())) {
+                notes.push_back({.kind = "converted", .text = words, .key = file.key->place(file.item)});
+            }
+        }
+        append(notes, stretch_of(grid));
+        return notes;
+    };
+    constexpr std::int64_t of_note = 256;
+    return kept_or_made(run, "conversions", made_from, look,
+                        [](auto const& notes) { return of_note * static_cast<std::int64_t>(notes.size()); });
+}
+
+std::vector<std::string> file_names(Recipe const& recipe) {
+    std::vector<std::string> names;
+    for (NamedFile const& file : files_of(recipe)) {
+        names.push_back(file.name);
+    }
+    return names;
+}
 
 std::string state_of_files(Recipe const& recipe) {
     std::string state;

@@ -48,21 +48,6 @@ template <class T> std::string text_of(T whole_or_yes_no) {
     return fmt::format("{}", whole_or_yes_no);
 }
 
-} // namespace
-
-std::string toml_text(Value const& value) {
-    return std::visit([](auto const& v) { return text_of(v); }, value);
-}
-
-std::string KeyRange::text() const {
-    if (most >= endless) {
-        return fmt::format("{} {}", open ? ">" : ">=", least);
-    }
-    return fmt::format("{}{}, {}]", open ? "(" : "[", least, most);
-}
-
-namespace {
-
 /// Throws BadParameter: what is wanted, not the value.
 [[noreturn]] void refuse_value(std::string const& wanted, Value const& v) {
     throw BadParameter(fmt::format("{} is required, not {}", wanted, toml_text(v)));
@@ -315,6 +300,17 @@ std::vector<Key> make_keys() {
 }
 
 } // namespace
+
+std::string toml_text(Value const& value) {
+    return std::visit([](auto const& v) { return text_of(v); }, value);
+}
+
+std::string KeyRange::text() const {
+    if (most >= endless) {
+        return fmt::format("{} {}", open ? ">" : ">=", least);
+    }
+    return fmt::format("{}{}, {}]", open ? "(" : "[", least, most);
+}
 
 std::vector<std::pair<std::string, int>> words_of(Row const& row, Field const& field) {
     auto const* const enumeration = std::get_if<Enumeration>(&field);

@@ -67,63 +67,6 @@ private:
     std::size_t dots_ = 0;
 };
 
-} // namespace
-
-std::optional<std::size_t> line_deeper_than(std::string_view toml, std::size_t most_levels) {
-    Levels levels;
-    std::size_t line = 1;
-    bool begins_line = true; // nothing but spaces so far
-    bool is_header = false;
-    std::size_t deepest_dots = 0;
-    for (std::size_t at = 0; at < toml.size(); ++at) {
-        char const c = toml[at];
-        if (c == '\n') {
-            if (is_header) {
-                levels = Levels();
-                levels.begin_section(deepest_dots + 1);
-                is_header = false;
-            }
-            if (levels.is_outermost()) {
-                levels.next();
-            }
-            ++line;
-            begins_line = true;
-            continue;
-        }
-        if (c == '#') {
-            at = std::min(toml.find('\n', at), toml.size()) - 1;
-            continue;
-        }
-        if (c == '"' || c == '\'') {
-            std::size_t const end = end_of_string(toml, at);
-            line += static_cast<std::size_t>(std::count(toml.begin() + static_cast<std::ptrdiff_t>(at),
-                                                        toml.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
-            at = end - 1;
-        } else if (c == '[' || c == '{') {
-            if (begins_line && c == '[' && levels.is_outermost()) {
-                is_header = true;
-                deepest_dots = 0;
-                levels.begin_section(0);
-            }
-            levels.open();
-        } else if (c == ']' || c == '}') {
-            deepest_dots = std::max(deepest_dots, levels.dots());
-            levels.close();
-        } else if (c == '.') {
-            levels.dot();
-        } else if (c == ',') {
-            levels.next();
-        }
-        begins_line = begins_line && (c == ' ' || c == '\t' || c == '\r');
-        if (levels.count() > most_levels) {
-            return line;
-        }
-    }
-    return std::nullopt;
-}
-
-namespace {
-
 std::optional<Value> value_of_array(toml::array const& array) {
     if (!array.empty() && array.is_homogeneous<std::string>()) {
         WordList words;
@@ -326,14 +269,6 @@ private:
     std::vector<std::string> faults_;
 };
 
-} // namespace
-
-Recipe read_recipe(std::string const& toml, std::string const& name) {
-    return Reader(name).read(parse_modest(toml, name));
-}
-
-namespace {
-
 /// What an assignment names: "patch.2.rotate" is patch.rotate of item 1.
 struct Target {
     std::string path;
@@ -396,7 +331,82 @@ void remove_section(Recipe& recipe, Section const& section, std::optional<std::s
                   [&](auto const& at) { return at.first.starts_with(fmt::format("{}.", section.name)); });
 }
 
+/// A section, or one item of an array: its keys that have an effect.
+std::string toml_of(Section const& section, std::size_t item, Recipe const& recipe) {
+    std::string out;
+    std::string brackets;
+    for (Key const& key : all_keys()) {
+        auto const value = key.part == &section && key.use(recipe) ? key.take(recipe, item) : std::optional<Value>();
+        if (!value) {
+            continue;
+        }
+        if (key.section() != brackets) {
+            brackets = key.section();
+            out += section.is_array ? fmt::format("\n[[{}]]\n", brackets) : fmt::format("\n[{}]\n", brackets);
+        }
+        out += fmt::format("{} = {}\n", key.name(), toml_text(*value));
+    }
+    return out;
+}
+
 } // namespace
+
+std::optional<std::size_t> line_deeper_than(std::string_view toml, std::size_t most_levels) {
+    Levels levels;
+    std::size_t line = 1;
+    bool begins_line = true; // nothing but spaces so far
+    bool is_header = false;
+    std::size_t deepest_dots = 0;
+    for (std::size_t at = 0; at < toml.size(); ++at) {
+        char const c = toml[at];
+        if (c == '\n') {
+            if (is_header) {
+                levels = Levels();
+                levels.begin_section(deepest_dots + 1);
+                is_header = false;
+            }
+            if (levels.is_outermost()) {
+                levels.next();
+            }
+            ++line;
+            begins_line = true;
+            continue;
+        }
+        if (c == '#') {
+            at = std::min(toml.find('\n', at), toml.size()) - 1;
+            continue;
+        }
+        if (c == '"' || c == '\'') {
+            std::size_t const end = end_of_string(toml, at);
+            line += static_cast<std::size_t>(std::count(toml.begin() + static_cast<std::ptrdiff_t>(at),
+                                                        toml.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
+            at = end - 1;
+        } else if (c == '[' || c == '{') {
+            if (begins_line && c == '[' && levels.is_outermost()) {
+                is_header = true;
+                deepest_dots = 0;
+                levels.begin_section(0);
+            }
+            levels.open();
+        } else if (c == ']' || c == '}') {
+            deepest_dots = std::max(deepest_dots, levels.dots());
+            levels.close();
+        } else if (c == '.') {
+            levels.dot();
+        } else if (c == ',') {
+            levels.next();
+        }
+        begins_line = begins_line && (c == ' ' || c == '\t' || c == '\r');
+        if (levels.count() > most_levels) {
+            return line;
+        }
+    }
+    return std::nullopt;
+}
+
+Recipe read_recipe(std::string const& toml, std::string const& name) {
+    return Reader(name).read(parse_modest(toml, name));
+}
 
 void set_key(Recipe& recipe, std::string const& path, std::string const& text) {
     Target const target = target_of(path);
@@ -461,28 +471,6 @@ std::vector<KeyValue> key_values(Recipe const& recipe) {
     }
     return values;
 }
-
-namespace {
-
-/// A section, or one item of an array: its keys that have an effect.
-std::string toml_of(Section const& section, std::size_t item, Recipe const& recipe) {
-    std::string out;
-    std::string brackets;
-    for (Key const& key : all_keys()) {
-        auto const value = key.part == &section && key.use(recipe) ? key.take(recipe, item) : std::optional<Value>();
-        if (!value) {
-            continue;
-        }
-        if (key.section() != brackets) {
-            brackets = key.section();
-            out += section.is_array ? fmt::format("\n[[{}]]\n", brackets) : fmt::format("\n[{}]\n", brackets);
-        }
-        out += fmt::format("{} = {}\n", key.name(), toml_text(*value));
-    }
-    return out;
-}
-
-} // namespace
 
 std::string write_recipe(Recipe const& recipe) {
     std::string out;

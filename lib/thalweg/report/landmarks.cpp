@@ -51,10 +51,6 @@ std::optional<Sea> sea_beside(std::optional<surface::Edge> edge) {
     return is_island || edge == surface::Edge::mainland ? std::optional(Sea{0.0, is_island}) : std::nullopt;
 }
 
-} // namespace
-
-namespace {
-
 /// The sea around land that reaches the grid's border nowhere goes on beyond it.
 std::optional<Sea> around_islands(std::optional<Sea> sea, Mask const& land) {
     if (land.cells() == 0) {

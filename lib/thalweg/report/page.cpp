@@ -130,6 +130,155 @@ std::vector<std::uint8_t> coded(std::vector<std::uint16_t> const& values, PageHe
     return bytes;
 }
 
+/// The direction, counted from 1, in which the page's heights fall most steeply; 0: nowhere. Of equally steep ones the
+/// lowest. Drops are compared squared, twice along a side, so that integers decide.
+int steepest_on_page(PageHeights const& page, std::int64_t col, std::int64_t row) {
+    auto const value = [&](std::int64_t c, std::int64_t r) {
+        bool const inside = c >= 0 && r >= 0 && c < page.width && r < page.height;
+        return inside ? std::int64_t{page.values[static_cast<std::size_t>(r * page.width + c)]} : 0;
+    };
+    std::int64_t const here = value(col, row);
+    std::int64_t steepest = 0;
+    int best = 0;
+    for (std::size_t k = 0; k < d8_steps.size(); ++k) {
+        std::int64_t const there = value(col + d8_steps[k].col, row + d8_steps[k].row);
+        std::int64_t const drop = there > 0 && there < here ? here - there : 0;
+        std::int64_t const steepness = drop * drop * (k % 2 == 0 ? 2 : 1);
+        if (steepness > steepest) {
+            steepest = steepness;
+            best = static_cast<int>(k) + 1;
+        }
+    }
+    return best;
+}
+
+constexpr double steps_a_square = 16.0;
+constexpr double farthest = 0x1p29; // products of two differences are then below 2^62
+
+/// A position in whole steps, x to the east and y to the south.
+struct Point {
+    std::int64_t x = 0;
+    std::int64_t y = 0;
+    friend bool operator==(Point const&, Point const&) = default;
+};
+
+/// Whether b lies on the straight line from a to c.
+bool on_the_way(Point a, Point b, Point c) {
+    Point const there{b.x - a.x, b.y - a.y};
+    Point const on{c.x - b.x, c.y - b.y};
+    return there.x * on.y == there.y * on.x && there.x * on.x + there.y * on.y > 0;
+}
+
+std::vector<Point> points_of(std::span<Vec2 const> line, Grid const& grid, double step_m, std::size_t number) {
+    refuse_if<BadInput>(line.size() < 2, "report.page_lines: line {} has {} vertices; give two or more", number,
+                        line.size());
+    std::vector<Point> points;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        double const x = std::floor((line[i].x - grid.west) / step_m + 0.5);
+        double const y = std::floor((grid.north - line[i].y) / step_m + 0.5);
+        if (!(std::fabs(x) < farthest && std::fabs(y) < farthest)) {
+            throw BadInput(fmt::format("report.page_lines: vertex {} of line {} lies at ({}, {}), far from the grid", i,
+                                       number, line[i].x, line[i].y));
+        }
+        Point const p{static_cast<std::int64_t>(x), static_cast<std::int64_t>(y)};
+        if (!points.empty() && points.back() == p) {
+            continue;
+        }
+        if (points.size() > 1 && on_the_way(points[points.size() - 2], points.back(), p)) {
+            points.back() = p;
+        } else {
+            points.push_back(p);
+        }
+    }
+    if (points.size() == 1) {
+        points.push_back(points.front());
+    }
+    return points;
+}
+
+void put(std::int64_t difference, std::vector<std::uint8_t>& bytes) {
+    auto const magnitude = static_cast<std::uint64_t>(difference < 0 ? -(difference + 1) : difference);
+    std::uint64_t rest = 2 * magnitude + (difference < 0 ? 1U : 0U);
+    while (rest >= 0x80U) {
+        bytes.push_back(static_cast<std::uint8_t>((rest & 0x7FU) | 0x80U));
+        rest >>= 7U;
+    }
+    bytes.push_back(static_cast<std::uint8_t>(rest));
+}
+
+struct Place {
+    std::size_t at;
+    std::string_view marker;
+    std::string const* part;
+};
+
+std::size_t find_once(std::string_view page, std::string_view marker) {
+    std::size_t const at = page.find(marker);
+    if (at == std::string_view::npos || page.find(marker, at + 1) != std::string_view::npos) {
+        throw std::logic_error(fmt::format("report.fill_markers: the page holds {} {}; rebuild web/dist",
+                                           at == std::string_view::npos ? "no" : "more than one", marker));
+    }
+    return at;
+}
+
+/// Replaces invalid UTF-8 by U+FFFD.
+std::string with_replacements(std::string const& text) {
+    using nlohmann::json;
+    return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace)).get<std::string>();
+}
+
+/// Whether every vertex of the network lies on the DEM's grid, as required for areas.
+bool lies_on(ElevatedNetwork const& network, Grid const& grid) {
+    for (ArcId arc = 0; arc < network.planform.arc_count(); ++arc) {
+        auto const& line = network.planform.arc(arc).line;
+        if (!std::all_of(line.begin(), line.end(), [&](Vec2 p) { return grid.contains(grid.cell_of(p)); })) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Makes a terrain of a scene's content.
+make::Terrain terrain_of(Scene const& scene, Run const& run) {
+    make::Terrain terrain;
+    terrain.grid = scene.dem->grid();
+    terrain.ground.dem = *scene.dem;
+    terrain.water.drainage = flow::route(*scene.dem, run);
+    if (scene.network) {
+        StreamNetwork const& network = scene.network->planform;
+        terrain.rivers.network = *scene.network;
+        terrain.rivers.orders = scene.orders;
+        if (lies_on(*scene.network, terrain.grid)) {
+            terrain.water.areas = flow::areas_d8(network, terrain.water.drainage, run);
+        } else {
+            terrain.water.areas.us_area_m2.assign(network.arc_count(), 0.0);
+            terrain.water.areas.ds_area_m2.assign(network.arc_count(), 0.0);
+            terrain.water.areas.node_m2.assign(network.node_count(), 0.0);
+        }
+    }
+    return terrain;
+}
+
+/// Measures it.
+make::Assessment assessment_of(Scene const& scene, make::Terrain const& terrain, Run const& run) {
+    make::Assessment found;
+    found.statistics = measure::statistics(*scene.dem, run);
+    found.hypsometry = measure::hypsometry(*scene.dem, run);
+    found.pits = terrain.water.drainage.pits;
+    found.pit_volume_m3 = terrain.water.drainage.pit_volume_m3;
+    if (scene.network) {
+        auto const topology =
+            measure::check_topology(measure::as_file(terrain.rivers.network, terrain.rivers.orders), {}, run);
+        found.checks = topology.checks;
+        found.findings = topology.findings;
+    }
+    found.laws = make::laws_of_terrain(terrain, found.statistics->cells, run);
+    found.relief = io::ground_cell(scene.dem->grid()).side_m == scene.dem->grid().cell_m
+                       ? make::relief_of_dem(*scene.dem, terrain.water.drainage, run)
+                       : make::relief_of_dem(*scene.dem, run);
+    return found;
+}
+
 } // namespace
 
 std::int64_t page_cells(Grid const& grid) {
@@ -191,32 +340,6 @@ std::optional<PageHeights> page_heights(Raster<float> const& dem, Run const& run
     return page;
 }
 
-namespace {
-
-/// The direction, counted from 1, in which the page's heights fall most steeply; 0: nowhere. Of equally steep ones the
-/// lowest. Drops are compared squared, twice along a side, so that integers decide.
-int steepest_on_page(PageHeights const& page, std::int64_t col, std::int64_t row) {
-    auto const value = [&](std::int64_t c, std::int64_t r) {
-        bool const inside = c >= 0 && r >= 0 && c < page.width && r < page.height;
-        return inside ? std::int64_t{page.values[static_cast<std::size_t>(r * page.width + c)]} : 0;
-    };
-    std::int64_t const here = value(col, row);
-    std::int64_t steepest = 0;
-    int best = 0;
-    for (std::size_t k = 0; k < d8_steps.size(); ++k) {
-        std::int64_t const there = value(col + d8_steps[k].col, row + d8_steps[k].row);
-        std::int64_t const drop = there > 0 && there < here ? here - there : 0;
-        std::int64_t const steepness = drop * drop * (k % 2 == 0 ? 2 : 1);
-        if (steepness > steepest) {
-            steepest = steepness;
-            best = static_cast<int>(k) + 1;
-        }
-    }
-    return best;
-}
-
-} // namespace
-
 std::vector<std::uint8_t> page_water(flow::FlowField const& drainage, Mask const& lakes, PageHeights const& heights) {
     std::vector<std::uint8_t> bytes;
     if (heights.cells > 1) {
@@ -237,64 +360,6 @@ std::vector<std::uint8_t> page_water(flow::FlowField const& drainage, Mask const
     return bytes;
 }
 
-namespace {
-
-constexpr double steps_a_square = 16.0;
-constexpr double farthest = 0x1p29; // products of two differences are then below 2^62
-
-/// A position in whole steps, x to the east and y to the south.
-struct Point {
-    std::int64_t x = 0;
-    std::int64_t y = 0;
-    friend bool operator==(Point const&, Point const&) = default;
-};
-
-/// Whether b lies on the straight line from a to c.
-bool on_the_way(Point a, Point b, Point c) {
-    Point const there{b.x - a.x, b.y - a.y};
-    Point const on{c.x - b.x, c.y - b.y};
-    return there.x * on.y == there.y * on.x && there.x * on.x + there.y * on.y > 0;
-}
-
-std::vector<Point> points_of(std::span<Vec2 const> line, Grid const& grid, double step_m, std::size_t number) {
-    refuse_if<BadInput>(line.size() < 2, "report.page_lines: line {} has {} vertices; give two or more", number,
-                        line.size());
-    std::vector<Point> points;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-        double const x = std::floor((line[i].x - grid.west) / step_m + 0.5);
-        double const y = std::floor((grid.north - line[i].y) / step_m + 0.5);
-        if (!(std::fabs(x) < farthest && std::fabs(y) < farthest)) {
-            throw BadInput(fmt::format("report.page_lines: vertex {} of line {} lies at ({}, {}), far from the grid", i,
-                                       number, line[i].x, line[i].y));
-        }
-        Point const p{static_cast<std::int64_t>(x), static_cast<std::int64_t>(y)};
-        if (!points.empty() && points.back() == p) {
-            continue;
-        }
-        if (points.size() > 1 && on_the_way(points[points.size() - 2], points.back(), p)) {
-            points.back() = p;
-        } else {
-            points.push_back(p);
-        }
-    }
-    if (points.size() == 1) {
-        points.push_back(points.front());
-    }
-    return points;
-}
-
-void put(std::int64_t difference, std::vector<std::uint8_t>& bytes) {
-    auto const magnitude = static_cast<std::uint64_t>(difference < 0 ? -(difference + 1) : difference);
-    std::uint64_t rest = 2 * magnitude + (difference < 0 ? 1U : 0U);
-    while (rest >= 0x80U) {
-        bytes.push_back(static_cast<std::uint8_t>((rest & 0x7FU) | 0x80U));
-        rest >>= 7U;
-    }
-    bytes.push_back(static_cast<std::uint8_t>(rest));
-}
-
-} // namespace
-
 PageLines page_lines(std::span<std::span<Vec2 const> const> lines, Grid const& grid) {
     PageLines page;
     page.step = static_cast<double>(page_cells(grid)) / steps_a_square;
@@ -310,25 +375,6 @@ PageLines page_lines(std::span<std::span<Vec2 const> const> lines, Grid const& g
     }
     return page;
 }
-
-namespace {
-
-struct Place {
-    std::size_t at;
-    std::string_view marker;
-    std::string const* part;
-};
-
-std::size_t find_once(std::string_view page, std::string_view marker) {
-    std::size_t const at = page.find(marker);
-    if (at == std::string_view::npos || page.find(marker, at + 1) != std::string_view::npos) {
-        throw std::logic_error(fmt::format("report.fill_markers: the page holds {} {}; rebuild web/dist",
-                                           at == std::string_view::npos ? "no" : "more than one", marker));
-    }
-    return at;
-}
-
-} // namespace
 
 std::string fill_markers(std::string_view page, std::vector<PageMarker> const& markers) {
     std::vector<Place> places;
@@ -358,16 +404,6 @@ std::string fill_page(std::string_view page, PageParts const& parts) {
                                {"@@WATER@@", &parts.water},
                                {"@@STUDIO@@", &parts.studio}});
 }
-
-namespace {
-
-/// Replaces invalid UTF-8 by U+FFFD.
-std::string with_replacements(std::string const& text) {
-    using nlohmann::json;
-    return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace)).get<std::string>();
-}
-
-} // namespace
 
 std::string html_text(std::string const& text) {
     std::string out;
@@ -415,62 +451,6 @@ std::string page(make::Made const& made, PageParams const& params, Run const& ru
     }
     return fill_page(page_template(), parts);
 }
-
-namespace {
-
-/// Whether every vertex of the network lies on the DEM's grid, as required for areas.
-bool lies_on(ElevatedNetwork const& network, Grid const& grid) {
-    for (ArcId arc = 0; arc < network.planform.arc_count(); ++arc) {
-        auto const& line = network.planform.arc(arc).line;
-        if (!std::all_of(line.begin(), line.end(), [&](Vec2 p) { return grid.contains(grid.cell_of(p)); })) {
-            return false;
-        }
-    }
-    return true;
-}
-
-/// Makes a terrain of a scene's content.
-make::Terrain terrain_of(Scene const& scene, Run const& run) {
-    make::Terrain terrain;
-    terrain.grid = scene.dem->grid();
-    terrain.ground.dem = *scene.dem;
-    terrain.water.drainage = flow::route(*scene.dem, run);
-    if (scene.network) {
-        StreamNetwork const& network = scene.network->planform;
-        terrain.rivers.network = *scene.network;
-        terrain.rivers.orders = scene.orders;
-        if (lies_on(*scene.network, terrain.grid)) {
-            terrain.water.areas = flow::areas_d8(network, terrain.water.drainage, run);
-        } else {
-            terrain.water.areas.us_area_m2.assign(network.arc_count(), 0.0);
-            terrain.water.areas.ds_area_m2.assign(network.arc_count(), 0.0);
-            terrain.water.areas.node_m2.assign(network.node_count(), 0.0);
-        }
-    }
-    return terrain;
-}
-
-/// Measures it.
-make::Assessment assessment_of(Scene const& scene, make::Terrain const& terrain, Run const& run) {
-    make::Assessment found;
-    found.statistics = measure::statistics(*scene.dem, run);
-    found.hypsometry = measure::hypsometry(*scene.dem, run);
-    found.pits = terrain.water.drainage.pits;
-    found.pit_volume_m3 = terrain.water.drainage.pit_volume_m3;
-    if (scene.network) {
-        auto const topology =
-            measure::check_topology(measure::as_file(terrain.rivers.network, terrain.rivers.orders), {}, run);
-        found.checks = topology.checks;
-        found.findings = topology.findings;
-    }
-    found.laws = make::laws_of_terrain(terrain, found.statistics->cells, run);
-    found.relief = io::ground_cell(scene.dem->grid()).side_m == scene.dem->grid().cell_m
-                       ? make::relief_of_dem(*scene.dem, terrain.water.drainage, run)
-                       : make::relief_of_dem(*scene.dem, run);
-    return found;
-}
-
-} // namespace
 
 std::string scene_page(Scene const& scene, std::vector<std::string> const& notes, std::string const& command,
                        Run const& run) {

@@ -84,6 +84,12 @@ draw::Picture draw_hypsometry(Scene const& scene, Look const& look, Run const& r
     return draw::hypsometry(curve, found.integral, params);
 }
 
+/// "WGS 84 / UTM zone 31N (EPSG:32631)", without a code the name; "": neither.
+std::string crs_on_map(std::string const& crs) {
+    std::string const words = io::crs_in_words(crs);
+    return words.empty() || !crs.starts_with("EPSG:") ? words : fmt::format("{} ({})", words, crs);
+}
+
 } // namespace
 
 std::vector<PictureKind> const& picture_kinds() {
@@ -104,16 +110,6 @@ char const* name_of(PictureKind kind) {
     }
     return "wireframe";
 }
-
-namespace {
-
-/// "WGS 84 / UTM zone 31N (EPSG:32631)", without a code the name; "": neither.
-std::string crs_on_map(std::string const& crs) {
-    std::string const words = io::crs_in_words(crs);
-    return words.empty() || !crs.starts_with("EPSG:") ? words : fmt::format("{} ({})", words, crs);
-}
-
-} // namespace
 
 draw::Picture draw_land(draw::MapSheet sheet, std::optional<Sea> const& sea, std::vector<Summit> const& summits,
                         draw::MapParams params) {

@@ -68,21 +68,6 @@ double contour_interval_m(make::Made const& t) {
     return t.recipe.output.units == HeightUnit::metre ? contour_interval(t) : round_interval(relief_m(t));
 }
 
-} // namespace
-
-PageParams page_params_of(make::Made const& made, std::string recipe) {
-    PageParams params;
-    params.recipe = std::move(recipe);
-    if (made.terrain.has_surface()) {
-        params.contour_interval_m = contour_interval_m(made);
-        params.sea = sea_of(made.terrain);
-        params.lakes = make::lake_cells(made.terrain.bed.channels);
-    }
-    return params;
-}
-
-namespace {
-
 /// Writes the network in another schema, with confluences split if it limits the number of arcs at a node.
 void write_in_schema(make::Made const& t, io::OutputFolder const& out, Run const& run) {
     io::SchemaTable const& schema = io::table_of(t.recipe.output.schema);
@@ -371,6 +356,17 @@ private:
 };
 
 } // namespace
+
+PageParams page_params_of(make::Made const& made, std::string recipe) {
+    PageParams params;
+    params.recipe = std::move(recipe);
+    if (made.terrain.has_surface()) {
+        params.contour_interval_m = contour_interval_m(made);
+        params.sea = sea_of(made.terrain);
+        params.lakes = make::lake_cells(made.terrain.bed.channels);
+    }
+    return params;
+}
 
 draw::Picture differences_against(make::Against const& against, make::Terrain const& terrain, int width_px) {
     Raster<std::uint8_t> const shade = io::hillshade(terrain.ground.dem);

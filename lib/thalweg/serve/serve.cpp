@@ -121,6 +121,21 @@ struct Message {
     std::int64_t bytes_in_queue() const { return static_cast<std::int64_t>(bytes->size() + 64); } // its own 64
 };
 
+void check(ServeParams const& params) {
+    constexpr std::string_view function = "serve.Server";
+    constexpr double hour_ms = 3600000.0;
+    bool const is_plain =
+        std::ranges::all_of(params.token, [](char c) { return is_letter_or_digit(c) || c == '-' || c == '_'; });
+    refuse_if<BadParameter>(
+        params.token.size() < 16 || !is_plain,
+        "{}: the token must have at least 16 letters, digits, '-' or '_', as new_token() gives them", function);
+    require_in(function, "connections", params.connections, Range::between(1, 100000));
+    require_in(function, "message_bytes", params.message_bytes, Range::between(1, 1 << 30));
+    require_in(function, "queue_bytes", params.queue_bytes, Range::between(1, static_cast<double>(1LL << 40)));
+    require_in(function, "request_time", std::int64_t{params.request_time.count()}, Range::between(1, hour_ms), "ms");
+    require_in(function, "silence", std::int64_t{params.silence.count()}, Range::between(1, hour_ms), "ms");
+}
+
 } // namespace
 
 class Session;
@@ -439,25 +454,6 @@ private:
     std::array<char, 4096> discarded_{};
     std::size_t unread_ = 0;
 };
-
-namespace {
-
-void check(ServeParams const& params) {
-    constexpr std::string_view function = "serve.Server";
-    constexpr double hour_ms = 3600000.0;
-    bool const is_plain =
-        std::ranges::all_of(params.token, [](char c) { return is_letter_or_digit(c) || c == '-' || c == '_'; });
-    refuse_if<BadParameter>(
-        params.token.size() < 16 || !is_plain,
-        "{}: the token must have at least 16 letters, digits, '-' or '_', as new_token() gives them", function);
-    require_in(function, "connections", params.connections, Range::between(1, 100000));
-    require_in(function, "message_bytes", params.message_bytes, Range::between(1, 1 << 30));
-    require_in(function, "queue_bytes", params.queue_bytes, Range::between(1, static_cast<double>(1LL << 40)));
-    require_in(function, "request_time", std::int64_t{params.request_time.count()}, Range::between(1, hour_ms), "ms");
-    require_in(function, "silence", std::int64_t{params.silence.count()}, Range::between(1, hour_ms), "ms");
-}
-
-} // namespace
 
 Listener::Listener(ServeParams given, Handlers called) : params(std::move(given)), handlers(std::move(called)) {
     check(params);

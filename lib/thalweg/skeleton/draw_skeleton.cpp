@@ -41,37 +41,6 @@ Vec2 scaled(PlaceOnLine const& place, std::size_t number, Vec2 origin, double wa
     return at;
 }
 
-} // namespace
-
-std::vector<double> noise_along(std::vector<PlaceOnLine> const& places, Vec2 origin, NoiseAlongParams const& params,
-                                Run const& run) {
-    require(params);
-    run.check();
-    auto const words = random_block(params.seed, noise_stage);
-    // libnoise truncates its seed to 16 bits, and its noise is 0 at whole coordinates.
-    double const shift_x = widest_shift * unit(words[1]);
-    double const shift_y = widest_shift * unit(words[2]);
-    double const level = unit(words[3]);
-    std::vector<Vec3> shifted(places.size());
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        Vec2 const at = scaled(places[i], i, origin, params.wavelength_m);
-        shifted[i] = {at.x + shift_x, at.y + shift_y, level};
-    }
-    std::vector<double> noise(places.size(), 0.0);
-    if (!(params.amplitude_m > 0.0)) {
-        return noise;
-    }
-    noise = perlin(shifted, static_cast<int>(words[0] >> 33U), run);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        // libnoise sometimes exceeds its nominal bound of 1.
-        double const share = places[i].share;
-        noise[i] = params.amplitude_m * std::clamp(noise[i] / sum_of_gains, -1.0, 1.0) * (4.0 * share * (1.0 - share));
-    }
-    return noise;
-}
-
-namespace {
-
 /// Bits for the features that meet in a cell.
 constexpr std::uint8_t river = 1;
 constexpr std::uint8_t ridge = 2;
@@ -178,6 +147,33 @@ bool below_a_river(Cell c, Raster<float> const& z, Mask const& what) {
 }
 
 } // namespace
+
+std::vector<double> noise_along(std::vector<PlaceOnLine> const& places, Vec2 origin, NoiseAlongParams const& params,
+                                Run const& run) {
+    require(params);
+    run.check();
+    auto const words = random_block(params.seed, noise_stage);
+    // libnoise truncates its seed to 16 bits, and its noise is 0 at whole coordinates.
+    double const shift_x = widest_shift * unit(words[1]);
+    double const shift_y = widest_shift * unit(words[2]);
+    double const level = unit(words[3]);
+    std::vector<Vec3> shifted(places.size());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        Vec2 const at = scaled(places[i], i, origin, params.wavelength_m);
+        shifted[i] = {at.x + shift_x, at.y + shift_y, level};
+    }
+    std::vector<double> noise(places.size(), 0.0);
+    if (!(params.amplitude_m > 0.0)) {
+        return noise;
+    }
+    noise = perlin(shifted, static_cast<int>(words[0] >> 33U), run);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        // libnoise sometimes exceeds its nominal bound of 1.
+        double const share = places[i].share;
+        noise[i] = params.amplitude_m * std::clamp(noise[i] / sum_of_gains, -1.0, 1.0) * (4.0 * share * (1.0 - share));
+    }
+    return noise;
+}
 
 DrawnSkeleton draw_skeleton(Valley const& valley, RidgeLines const& ridges, FeaturePoints const& points,
                             DrawSkeletonParams const& params, Run const& run) {

@@ -353,46 +353,6 @@ void attract(Vec3& point, Vec3 const& extreme, double reach_m, Falloff falloff) 
     }
 }
 
-} // namespace
-
-Scattered scatter(Grid const& grid, ScatterParams const& params, Run const& run) {
-    double const spacing_m = params.spacing_cells * grid.cell_m;
-    require(grid, params, spacing_m);
-    std::vector<Vec3> extremes;
-    PlacePointsParams placing{params.seed, params.count, params.spacing_cells};
-    for (auto const& extreme : {params.highest, params.lowest}) {
-        if (extreme) {
-            extremes.push_back(*extreme);
-            placing.standing.push_back({extreme->x, extreme->y});
-        }
-    }
-    PlacedPoints const placed = place_points(grid, {}, placing, run);
-    std::vector<Vec2> const& places = placed.places;
-    Scattered result;
-    result.points.crs = grid.crs;
-    result.missing = placed.missing;
-    result.density = placed.density;
-
-    std::vector<double> const z = heights(places.size(), params);
-    result.points.points = extremes;
-    double const top = params.highest ? params.highest->z : std::numeric_limits<double>::max();
-    double const bottom = params.lowest ? params.lowest->z : std::numeric_limits<double>::lowest();
-    double const hair = params.highest && params.lowest ? 1e-6 * (top - bottom) : 1e-6;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        Vec3 point{places[i].x, places[i].y, z[i]};
-        for (Vec3 const& extreme : extremes) {
-            if (params.reach_cells > 0.0) {
-                attract(point, extreme, params.reach_cells * grid.cell_m, params.falloff);
-            }
-        }
-        point.z = std::clamp(point.z, bottom + hair, top - hair);
-        result.points.points.push_back(point);
-    }
-    return result;
-}
-
-namespace {
-
 constexpr std::uint64_t share_stage = 0x7363617474657235; // "scatter5"
 constexpr double nearest_allowed_cells = 2.0;
 
@@ -471,6 +431,42 @@ double share_of(std::uint64_t place, ScatterBetweenParams const& params) {
 }
 
 } // namespace
+
+Scattered scatter(Grid const& grid, ScatterParams const& params, Run const& run) {
+    double const spacing_m = params.spacing_cells * grid.cell_m;
+    require(grid, params, spacing_m);
+    std::vector<Vec3> extremes;
+    PlacePointsParams placing{params.seed, params.count, params.spacing_cells};
+    for (auto const& extreme : {params.highest, params.lowest}) {
+        if (extreme) {
+            extremes.push_back(*extreme);
+            placing.standing.push_back({extreme->x, extreme->y});
+        }
+    }
+    PlacedPoints const placed = place_points(grid, {}, placing, run);
+    std::vector<Vec2> const& places = placed.places;
+    Scattered result;
+    result.points.crs = grid.crs;
+    result.missing = placed.missing;
+    result.density = placed.density;
+
+    std::vector<double> const z = heights(places.size(), params);
+    result.points.points = extremes;
+    double const top = params.highest ? params.highest->z : std::numeric_limits<double>::max();
+    double const bottom = params.lowest ? params.lowest->z : std::numeric_limits<double>::lowest();
+    double const hair = params.highest && params.lowest ? 1e-6 * (top - bottom) : 1e-6;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        Vec3 point{places[i].x, places[i].y, z[i]};
+        for (Vec3 const& extreme : extremes) {
+            if (params.reach_cells > 0.0) {
+                attract(point, extreme, params.reach_cells * grid.cell_m, params.falloff);
+            }
+        }
+        point.z = std::clamp(point.z, bottom + hair, top - hair);
+        result.points.points.push_back(point);
+    }
+    return result;
+}
 
 Scattered scatter_between(Valley const& valley, Mask const& inside, ScatterBetweenParams const& params,
                           Run const& run) {

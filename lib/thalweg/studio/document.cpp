@@ -69,31 +69,6 @@ std::size_t begin_of_line(std::string_view text, std::int64_t line) {
     return begin;
 }
 
-} // namespace
-
-std::string with_lines(std::string toml, ReplaceLines const& lines) {
-    for (std::string_view const text :
-         {std::string_view(toml), std::string_view(lines.old_text), std::string_view(lines.new_text)}) {
-        refuse_if<BadInput>(!text.empty() && text.back() != '\n', "studio.apply: lines end in the middle of one");
-    }
-    std::size_t const begin = lines.first < 0 ? std::string::npos : begin_of_line(toml, lines.first);
-    bool const is_there = begin != std::string::npos && toml.compare(begin, lines.old_text.size(), lines.old_text) == 0;
-    refuse_if<BadInput>(!is_there, "studio.apply: the recipe has other lines than those to replace");
-    return toml.replace(begin, lines.old_text.size(), lines.new_text);
-}
-
-ReplaceLines reversed(ReplaceLines lines) {
-    std::swap(lines.old_text, lines.new_text);
-    return lines;
-}
-
-void move_last(std::vector<Change>& from, std::vector<Change>& to) {
-    to.push_back(std::move(from.back()));
-    from.pop_back();
-}
-
-namespace {
-
 /// The fewest neighbouring lines that differ.
 ReplaceLines lines_between(std::string_view from, std::string_view to) {
     ReplaceLines lines;
@@ -177,6 +152,27 @@ private:
 };
 
 } // namespace
+
+std::string with_lines(std::string toml, ReplaceLines const& lines) {
+    for (std::string_view const text :
+         {std::string_view(toml), std::string_view(lines.old_text), std::string_view(lines.new_text)}) {
+        refuse_if<BadInput>(!text.empty() && text.back() != '\n', "studio.apply: lines end in the middle of one");
+    }
+    std::size_t const begin = lines.first < 0 ? std::string::npos : begin_of_line(toml, lines.first);
+    bool const is_there = begin != std::string::npos && toml.compare(begin, lines.old_text.size(), lines.old_text) == 0;
+    refuse_if<BadInput>(!is_there, "studio.apply: the recipe has other lines than those to replace");
+    return toml.replace(begin, lines.old_text.size(), lines.new_text);
+}
+
+ReplaceLines reversed(ReplaceLines lines) {
+    std::swap(lines.old_text, lines.new_text);
+    return lines;
+}
+
+void move_last(std::vector<Change>& from, std::vector<Change>& to) {
+    to.push_back(std::move(from.back()));
+    from.pop_back();
+}
 
 std::string name_of(Edit const& edit) {
     struct Name {

@@ -169,83 +169,6 @@ void read_ridges_into(Drawing& drawing, Recipe const& recipe, Run const& run) {
     }
 }
 
-} // namespace
-
-bool is_drawn(Recipe const& recipe) {
-    if (!recipe.network) {
-        return false;
-    }
-    recipe::NetworkRecipe const& wanted = *recipe.network;
-    return (wanted.source == recipe::Source::tokunaga && !wanted.tokunaga.strokes.empty()) ||
-           (wanted.source == recipe::Source::lines &&
-            std::filesystem::path(wanted.lines.path).filename() == drawing_name);
-}
-
-std::optional<Grid> grid_of(Recipe const& recipe) {
-    recipe::GridRecipe const& wanted = recipe.grid;
-    if (wanted.width <= 0 || wanted.height <= 0 || !wanted.origin || !(wanted.cell_m > 0.0) || wanted.crs.empty()) {
-        return std::nullopt;
-    }
-    return Grid{wanted.width,        wanted.height,       wanted.cell_m,
-                (*wanted.origin)[0], (*wanted.origin)[1], io::projected_crs(wanted.crs)};
-}
-
-Drawing read_drawing(Recipe const& recipe, Grid const& grid, Run const& run) {
-    Drawing drawing;
-    drawing.grid = grid;
-    if (is_drawn(recipe)) {
-        read_rivers_into(drawing, recipe, run);
-    }
-    if (recipe.surface && !recipe.surface->equilibrium.lakes.empty()) {
-        for (Polygon& polygon :
-             io::read_polygons_valued(file_of(recipe, recipe.surface->equilibrium.lakes), grid.crs, "level", run)
-                 .polygons) {
-            std::optional<double> const level_m =
-                std::isnan(polygon.value) ? std::nullopt : std::optional(polygon.value);
-            std::ranges::transform(polygon.rings, polygon.rings.begin(), open_ring);
-            if (has_shore(polygon)) {
-                drawing.lakes.push_back({std::move(polygon.rings), level_m});
-            }
-        }
-    }
-    if (recipe.surface && !recipe.surface->mask.empty() && io::holds_polygons(file_of(recipe, recipe.surface->mask))) {
-        for (Polygon& polygon : io::read_polygons(file_of(recipe, recipe.surface->mask), grid.crs, run).polygons) {
-            std::ranges::transform(polygon.rings, polygon.rings.begin(), open_ring);
-            if (has_shore(polygon)) {
-                drawing.masks.push_back(std::move(polygon.rings.front()));
-                polygon.rings.erase(polygon.rings.begin());
-                drawing.mask_islands.push_back(std::move(polygon.rings));
-            }
-        }
-    }
-    if (recipe.skeleton && !recipe.skeleton->points.empty()) {
-        read_pins_into(drawing, recipe, run);
-    }
-    if (recipe.skeleton && !recipe.skeleton->ridge_lines.empty()) {
-        read_ridges_into(drawing, recipe, run);
-    }
-    return drawing;
-}
-
-Drawing drawing_of(Grid const& grid, StreamNetwork const& network, Mask const& land, AttributeTable const& attributes) {
-    Drawing drawing;
-    drawing.grid = grid;
-    drawing.attributes = attributes;
-    for (Arc const& arc : network.arcs()) {
-        DrawnLine line;
-        std::ranges::transform(arc.line, std::back_inserter(line), [](Vec2 p) { return rounded(p); });
-        line.erase(std::unique(line.begin(), line.end()), line.end());
-        bool const has_record = arc.feature > 0 && arc.feature <= static_cast<std::int64_t>(attributes.rows.size());
-        if (line.size() > 1) {
-            drawing.rivers.push_back({std::move(line), arc.type, 0, has_record ? arc.feature : 0});
-        }
-    }
-    drawing.coasts = coasts_of(land);
-    return drawing;
-}
-
-namespace {
-
 std::vector<Vec3> in_space(DrawnLine const& line) {
     std::vector<Vec3> places;
     for (Vec2 const p : line) {
@@ -531,6 +454,79 @@ void drop_skeleton(std::vector<Step>& steps, Document const& document, Drawing c
 }
 
 } // namespace
+
+bool is_drawn(Recipe const& recipe) {
+    if (!recipe.network) {
+        return false;
+    }
+    recipe::NetworkRecipe const& wanted = *recipe.network;
+    return (wanted.source == recipe::Source::tokunaga && !wanted.tokunaga.strokes.empty()) ||
+           (wanted.source == recipe::Source::lines &&
+            std::filesystem::path(wanted.lines.path).filename() == drawing_name);
+}
+
+std::optional<Grid> grid_of(Recipe const& recipe) {
+    recipe::GridRecipe const& wanted = recipe.grid;
+    if (wanted.width <= 0 || wanted.height <= 0 || !wanted.origin || !(wanted.cell_m > 0.0) || wanted.crs.empty()) {
+        return std::nullopt;
+    }
+    return Grid{wanted.width,        wanted.height,       wanted.cell_m,
+                (*wanted.origin)[0], (*wanted.origin)[1], io::projected_crs(wanted.crs)};
+}
+
+Drawing read_drawing(Recipe const& recipe, Grid const& grid, Run const& run) {
+    Drawing drawing;
+    drawing.grid = grid;
+    if (is_drawn(recipe)) {
+        read_rivers_into(drawing, recipe, run);
+    }
+    if (recipe.surface && !recipe.surface->equilibrium.lakes.empty()) {
+        for (Polygon& polygon :
+             io::read_polygons_valued(file_of(recipe, recipe.surface->equilibrium.lakes), grid.crs, "level", run)
+                 .polygons) {
+            std::optional<double> const level_m =
+                std::isnan(polygon.value) ? std::nullopt : std::optional(polygon.value);
+            std::ranges::transform(polygon.rings, polygon.rings.begin(), open_ring);
+            if (has_shore(polygon)) {
+                drawing.lakes.push_back({std::move(polygon.rings), level_m});
+            }
+        }
+    }
+    if (recipe.surface && !recipe.surface->mask.empty() && io::holds_polygons(file_of(recipe, recipe.surface->mask))) {
+        for (Polygon& polygon : io::read_polygons(file_of(recipe, recipe.surface->mask), grid.crs, run).polygons) {
+            std::ranges::transform(polygon.rings, polygon.rings.begin(), open_ring);
+            if (has_shore(polygon)) {
+                drawing.masks.push_back(std::move(polygon.rings.front()));
+                polygon.rings.erase(polygon.rings.begin());
+                drawing.mask_islands.push_back(std::move(polygon.rings));
+            }
+        }
+    }
+    if (recipe.skeleton && !recipe.skeleton->points.empty()) {
+        read_pins_into(drawing, recipe, run);
+    }
+    if (recipe.skeleton && !recipe.skeleton->ridge_lines.empty()) {
+        read_ridges_into(drawing, recipe, run);
+    }
+    return drawing;
+}
+
+Drawing drawing_of(Grid const& grid, StreamNetwork const& network, Mask const& land, AttributeTable const& attributes) {
+    Drawing drawing;
+    drawing.grid = grid;
+    drawing.attributes = attributes;
+    for (Arc const& arc : network.arcs()) {
+        DrawnLine line;
+        std::ranges::transform(arc.line, std::back_inserter(line), [](Vec2 p) { return rounded(p); });
+        line.erase(std::unique(line.begin(), line.end()), line.end());
+        bool const has_record = arc.feature > 0 && arc.feature <= static_cast<std::int64_t>(attributes.rows.size());
+        if (line.size() > 1) {
+            drawing.rivers.push_back({std::move(line), arc.type, 0, has_record ? arc.feature : 0});
+        }
+    }
+    drawing.coasts = coasts_of(land);
+    return drawing;
+}
 
 void write_drawing(Drawing const& drawing, std::string const& path, Run const& run) {
     io::write_tables({table_of_rivers(drawing)}, drawing.grid.crs, path, run);

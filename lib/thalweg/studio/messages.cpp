@@ -260,6 +260,41 @@ private:
     Grid const& grid_;
 };
 
+/// [cells] to a ten thousandth
+double short_number(double v) {
+    constexpr double parts = 1e4;
+    return std::round(v * parts) / parts;
+}
+
+ordered_json numbers_of(DrawnLine const& line, Grid const& grid) {
+    ordered_json numbers = ordered_json::array();
+    for (Vec2 const p : line) {
+        Vec2 const at = in_cells(grid, p);
+        numbers.push_back(short_number(at.x));
+        numbers.push_back(short_number(at.y));
+    }
+    return numbers;
+}
+
+/// The values of a tile, cut at the raster's edge, row by row.
+std::vector<float> values_of_tile(Raster<float> const& raster, std::int64_t number) {
+    std::int64_t const across = (raster.width() + tile - 1) / tile;
+    std::int64_t const col = number % across * tile;
+    std::int64_t const row = number / across * tile;
+    std::int64_t const wide = std::min(tile, raster.width() - col);
+    std::vector<float> values;
+    values.reserve(static_cast<std::size_t>(tile * tile));
+    for (std::int64_t r = row; r < std::min(row + tile, raster.height()); ++r) {
+        auto const line = raster.row(r).subspan(static_cast<std::size_t>(col), static_cast<std::size_t>(wide));
+        values.insert(values.end(), line.begin(), line.end());
+    }
+    return values;
+}
+
+bool have_same_bytes(std::vector<float> const& a, std::vector<float> const& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+}
+
 } // namespace
 
 Request request_of(std::string_view text) {
@@ -400,26 +435,6 @@ std::string done_message(std::int64_t id, std::int64_t revision, std::int64_t jo
     return text_of(message);
 }
 
-namespace {
-
-/// [cells] to a ten thousandth
-double short_number(double v) {
-    constexpr double parts = 1e4;
-    return std::round(v * parts) / parts;
-}
-
-ordered_json numbers_of(DrawnLine const& line, Grid const& grid) {
-    ordered_json numbers = ordered_json::array();
-    for (Vec2 const p : line) {
-        Vec2 const at = in_cells(grid, p);
-        numbers.push_back(short_number(at.x));
-        numbers.push_back(short_number(at.y));
-    }
-    return numbers;
-}
-
-} // namespace
-
 std::string refused_message(std::int64_t id, std::string_view error, std::optional<Vec2> at) {
     ordered_json message{{"type", "reply"}, {"id", id}, {"ok", false}, {"error", std::string(error)}};
     if (at) {
@@ -482,29 +497,6 @@ std::string written_message(std::int64_t id, std::int64_t revision, Written cons
                     {"files", written.files},
                     {"url", written.url}});
 }
-
-namespace {
-
-/// The values of a tile, cut at the raster's edge, row by row.
-std::vector<float> values_of_tile(Raster<float> const& raster, std::int64_t number) {
-    std::int64_t const across = (raster.width() + tile - 1) / tile;
-    std::int64_t const col = number % across * tile;
-    std::int64_t const row = number / across * tile;
-    std::int64_t const wide = std::min(tile, raster.width() - col);
-    std::vector<float> values;
-    values.reserve(static_cast<std::size_t>(tile * tile));
-    for (std::int64_t r = row; r < std::min(row + tile, raster.height()); ++r) {
-        auto const line = raster.row(r).subspan(static_cast<std::size_t>(col), static_cast<std::size_t>(wide));
-        values.insert(values.end(), line.begin(), line.end());
-    }
-    return values;
-}
-
-bool have_same_bytes(std::vector<float> const& a, std::vector<float> const& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
-}
-
-} // namespace
 
 std::string heights_message(Job const& job, Shown const& shown, Shown const* before) {
     Raster<float> const& values = shown.heights.values;

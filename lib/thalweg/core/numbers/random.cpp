@@ -19,6 +19,20 @@ std::array<std::uint64_t, 4> philox(std::uint64_t seed, std::uint64_t stage, std
     return {out[0], out[1], out[2], out[3]};
 }
 
+constexpr std::uint64_t stage = 0x6e6f697365; // "noise"
+
+double node(std::uint64_t seed, double x, double y) {
+    return 2.0 * unit(random_word(seed, stage, static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(y))) - 1.0;
+}
+
+double eased(double t) {
+    return t * t * (3.0 - 2.0 * t);
+}
+
+double mixed(double a, double b, double t) {
+    return a + (b - a) * t;
+}
+
 } // namespace
 
 std::array<std::uint64_t, 4> random_block(std::uint64_t seed, std::uint64_t a, std::uint64_t b, std::uint64_t c,
@@ -41,24 +55,6 @@ std::array<double, 2> normal_pair(std::uint64_t first, std::uint64_t second) {
     double const angle = 2.0 * portable::pi * unit(second);
     return {radius * portable::cos(angle), radius * portable::sin(angle)};
 }
-
-namespace {
-
-constexpr std::uint64_t stage = 0x6e6f697365; // "noise"
-
-double node(std::uint64_t seed, double x, double y) {
-    return 2.0 * unit(random_word(seed, stage, static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(y))) - 1.0;
-}
-
-double eased(double t) {
-    return t * t * (3.0 - 2.0 * t);
-}
-
-double mixed(double a, double b, double t) {
-    return a + (b - a) * t;
-}
-
-} // namespace
 
 double value_noise(std::uint64_t seed, Cell cell, double lattice_cells) {
     double const x = (static_cast<double>(cell.col) + 0.5) / lattice_cells;

@@ -134,6 +134,32 @@ std::pair<std::size_t, std::size_t> address_password_at(std::string_view text, s
                : std::pair{colon + 1, from + host};
 }
 
+char lower(char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+/// Counts inserted, deleted and replaced letters; swapping two neighbours counts as one edit.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    std::vector<std::size_t> above = row;
+    std::vector<std::size_t> two_above = row;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        two_above.swap(above);
+        above = row;
+        row[0] = i;
+        for (std::size_t k = 1; k <= b.size(); ++k) {
+            char const mine = lower(a[i - 1]);
+            char const its = lower(b[k - 1]);
+            row[k] = std::min({above[k] + 1, row[k - 1] + 1, above[k - 1] + (mine == its ? 0 : 1)});
+            if (i > 1 && k > 1 && mine == lower(b[k - 2]) && its == lower(a[i - 2])) {
+                row[k] = std::min(row[k], two_above[k - 2] + 1);
+            }
+        }
+    }
+    return row.back();
+}
+
 } // namespace
 
 std::string without_passwords(std::string_view text) {
@@ -204,36 +230,6 @@ std::string printable(std::string_view text) {
     }
     return shown == lines ? out : fmt::format("{}\n[... {} more lines ...]", out, lines - shown);
 }
-
-namespace {
-
-char lower(char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
-/// Counts inserted, deleted and replaced letters; swapping two neighbours counts as one edit.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    std::vector<std::size_t> above = row;
-    std::vector<std::size_t> two_above = row;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        two_above.swap(above);
-        above = row;
-        row[0] = i;
-        for (std::size_t k = 1; k <= b.size(); ++k) {
-            char const mine = lower(a[i - 1]);
-            char const its = lower(b[k - 1]);
-            row[k] = std::min({above[k] + 1, row[k - 1] + 1, above[k - 1] + (mine == its ? 0 : 1)});
-            if (i > 1 && k > 1 && mine == lower(b[k - 2]) && its == lower(a[i - 2])) {
-                row[k] = std::min(row[k], two_above[k - 2] + 1);
-            }
-        }
-    }
-    return row.back();
-}
-
-} // namespace
 
 std::string closest(std::string_view word, std::vector<std::string> const& known) {
     word = word.substr(0, 64); // limits the time; longer words are not typing errors

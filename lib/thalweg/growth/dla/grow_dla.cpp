@@ -17,33 +17,6 @@ namespace {
 
 constexpr std::uint8_t no_parent = 4;
 
-} // namespace
-
-double least_arrivals(DlaParams const& params) {
-    constexpr double rows_of_a_side = 2.5; // measured at S = 0.001 to 0.01 with 100 to 10 000 particles
-    auto const radius = static_cast<double>(params.max_radius);
-    double const within = params.max_radius > 0 ? 4.0 * radius * radius : std::numeric_limits<double>::infinity();
-    double const particles = std::min(static_cast<double>(params.particles), within);
-    return particles + rows_of_a_side * std::sqrt(particles) / params.sticking / params.sticking;
-}
-
-void require_growth(DlaParams const& params) {
-    require_in("growth.grow_dla", "particles", params.particles, Range::at_least(1));
-    require_in("growth.grow_dla", "sticking", params.sticking, Range{0.0, 1.0, false, true});
-    require_in("growth.grow_dla", "visits", params.visits, Range::between(1, 255));
-    refuse_if<BadParameter>(params.max_radius < 0,
-                            "growth.grow_dla: max_radius is {}, it must be at least 1, or 0 for no limit",
-                            params.max_radius);
-    constexpr double most_arrivals = 1e12;
-    double const arrivals = params.particles > 1 ? least_arrivals(params) : 0.0; // one of them is the seed
-    refuse_if<BadParameter>(arrivals > most_arrivals,
-                            "growth.grow_dla: {} particles with sticking {} need more than {:.0e} arrivals of walkers "
-                            "and would not end in a day: set sticking nearer to 1, or fewer particles",
-                            params.particles, params.sticking, most_arrivals);
-}
-
-namespace {
-
 /// Numbers the occupied cells row by row, to find a cell's particle: one bit per cell and one count per word.
 class Register {
 public:
@@ -160,51 +133,6 @@ private:
     TiledBytes counts_{TiledBytes::tile};
 };
 
-} // namespace
-
-Cluster grow_dla(DlaParams const& params, Run const& run) {
-    require_growth(params);
-    Cluster cluster;
-    std::vector<std::uint8_t> direction;
-    Walk walk;
-    Gate gate(params);
-    auto const add = [&](Site site, std::uint8_t parent) {
-        walk.occupy(site);
-        gate.reach(walk.half());
-        cluster.cells.push_back({site.x, site.y});
-        direction.push_back(parent);
-    };
-    auto const size = [&] { return static_cast<std::int64_t>(cluster.cells.size()); };
-    auto const wide = [&] { return params.max_radius > 0 && walk.radius() >= static_cast<double>(params.max_radius); };
-
-    add({0, 0}, no_parent);
-    std::int64_t arrivals = 0;
-    while (size() < params.particles && !wide()) {
-        Walker w = walker(params.seed, cluster.walkers++);
-        walk.release(w);
-        for (;;) {
-            unsigned const mask = walk.approach(w);
-            if (++arrivals % 4096 == 0) {
-                run.at(static_cast<double>(size()) / static_cast<double>(params.particles), "grow");
-            }
-            Fate const fate = gate.arrive(w, mask);
-            if (fate == Fate::sticks) {
-                add(w.at, pick(mask, w.random));
-            }
-            if (fate != Fate::walks_on) {
-                break;
-            }
-            walk.step(w);
-        }
-    }
-    cluster.radius = walk.radius();
-    cluster.stop = wide() ? GrowthStop::radius : GrowthStop::particles;
-    cluster.parent = find_parents(cluster.cells, direction);
-    return cluster;
-}
-
-namespace {
-
 /// The share of an arm that must lie in its direction's quadrant, in quarters.
 constexpr std::int64_t of_four = 3;
 
@@ -283,6 +211,70 @@ std::vector<std::uint8_t> choose(Cluster const& cluster, BranchChoice choice) {
 }
 
 } // namespace
+
+double least_arrivals(DlaParams const& params) {
+    constexpr double rows_of_a_side = 2.5; // measured at S = 0.001 to 0.01 with 100 to 10 000 particles
+    auto const radius = static_cast<double>(params.max_radius);
+    double const within = params.max_radius > 0 ? 4.0 * radius * radius : std::numeric_limits<double>::infinity();
+    double const particles = std::min(static_cast<double>(params.particles), within);
+    return particles + rows_of_a_side * std::sqrt(particles) / params.sticking / params.sticking;
+}
+
+void require_growth(DlaParams const& params) {
+    require_in("growth.grow_dla", "particles", params.particles, Range::at_least(1));
+    require_in("growth.grow_dla", "sticking", params.sticking, Range{0.0, 1.0, false, true});
+    require_in("growth.grow_dla", "visits", params.visits, Range::between(1, 255));
+    refuse_if<BadParameter>(params.max_radius < 0,
+                            "growth.grow_dla: max_radius is {}, it must be at least 1, or 0 for no limit",
+                            params.max_radius);
+    constexpr double most_arrivals = 1e12;
+    double const arrivals = params.particles > 1 ? least_arrivals(params) : 0.0; // one of them is the seed
+    refuse_if<BadParameter>(arrivals > most_arrivals,
+                            "growth.grow_dla: {} particles with sticking {} need more than {:.0e} arrivals of walkers "
+                            "and would not end in a day: set sticking nearer to 1, or fewer particles",
+                            params.particles, params.sticking, most_arrivals);
+}
+
+Cluster grow_dla(DlaParams const& params, Run const& run) {
+    require_growth(params);
+    Cluster cluster;
+    std::vector<std::uint8_t> direction;
+    Walk walk;
+    Gate gate(params);
+    auto const add = [&](Site site, std::uint8_t parent) {
+        walk.occupy(site);
+        gate.reach(walk.half());
+        cluster.cells.push_back({site.x, site.y});
+        direction.push_back(parent);
+    };
+    auto const size = [&] { return static_cast<std::int64_t>(cluster.cells.size()); };
+    auto const wide = [&] { return params.max_radius > 0 && walk.radius() >= static_cast<double>(params.max_radius); };
+
+    add({0, 0}, no_parent);
+    std::int64_t arrivals = 0;
+    while (size() < params.particles && !wide()) {
+        Walker w = walker(params.seed, cluster.walkers++);
+        walk.release(w);
+        for (;;) {
+            unsigned const mask = walk.approach(w);
+            if (++arrivals % 4096 == 0) {
+                run.at(static_cast<double>(size()) / static_cast<double>(params.particles), "grow");
+            }
+            Fate const fate = gate.arrive(w, mask);
+            if (fate == Fate::sticks) {
+                add(w.at, pick(mask, w.random));
+            }
+            if (fate != Fate::walks_on) {
+                break;
+            }
+            walk.step(w);
+        }
+    }
+    cluster.radius = walk.radius();
+    cluster.stop = wide() ? GrowthStop::radius : GrowthStop::particles;
+    cluster.parent = find_parents(cluster.cells, direction);
+    return cluster;
+}
 
 Branch pick_branch(Cluster const& cluster, BranchParams const& params) {
     check(cluster, params);

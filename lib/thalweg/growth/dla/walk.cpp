@@ -34,35 +34,6 @@ Site nearest_site(double x, double y) {
     return {static_cast<std::int32_t>(std::floor(x + 0.5)), static_cast<std::int32_t>(std::floor(y + 0.5))};
 }
 
-} // namespace
-
-LaunchCircle launch_circle(double cluster_radius) {
-    LaunchCircle circle;
-    circle.radius = cluster_radius + 4.0;
-    circle.far = static_cast<std::int32_t>(std::max(1.5 * circle.radius, circle.radius + 24.0));
-    return circle;
-}
-
-Site launch_site(LaunchCircle const& circle, RandomStream& random) {
-    Direction const w = uniform_direction(random);
-    return nearest_site(circle.radius * w.x, circle.radius * w.y);
-}
-
-Site back_from_afar(LaunchCircle const& circle, Site from, RandomStream& random) {
-    Direction const w = uniform_direction(random);
-    double const scale = circle.radius / static_cast<double>(squared(from));
-    double const ax = scale * from.x;
-    double const ay = scale * from.y;
-    double const top_x = w.x + ax;
-    double const top_y = w.y + ay;
-    double const low_x = 1.0 + ax * w.x + ay * w.y;
-    double const low_y = ax * w.y - ay * w.x;
-    double const length = circle.radius / (low_x * low_x + low_y * low_y);
-    return nearest_site(length * (top_x * low_x + top_y * low_y), length * (top_y * low_x - top_x * low_y));
-}
-
-namespace {
-
 constexpr std::int32_t first_half = 64;
 
 /// Row |dy| of the closeness around an occupied site, by dx + 32.
@@ -101,6 +72,31 @@ std::size_t blocks_across(std::int32_t half, std::size_t side) {
 constexpr std::uint64_t growth_stage = 1;
 
 } // namespace
+
+LaunchCircle launch_circle(double cluster_radius) {
+    LaunchCircle circle;
+    circle.radius = cluster_radius + 4.0;
+    circle.far = static_cast<std::int32_t>(std::max(1.5 * circle.radius, circle.radius + 24.0));
+    return circle;
+}
+
+Site launch_site(LaunchCircle const& circle, RandomStream& random) {
+    Direction const w = uniform_direction(random);
+    return nearest_site(circle.radius * w.x, circle.radius * w.y);
+}
+
+Site back_from_afar(LaunchCircle const& circle, Site from, RandomStream& random) {
+    Direction const w = uniform_direction(random);
+    double const scale = circle.radius / static_cast<double>(squared(from));
+    double const ax = scale * from.x;
+    double const ay = scale * from.y;
+    double const top_x = w.x + ax;
+    double const top_y = w.y + ay;
+    double const low_x = 1.0 + ax * w.x + ay * w.y;
+    double const low_y = ax * w.y - ay * w.x;
+    double const length = circle.radius / (low_x * low_x + low_y * low_y);
+    return nearest_site(length * (top_x * low_x + top_y * low_y), length * (top_y * low_x - top_x * low_y));
+}
 
 void FreeSquares::Blocks::occupy(std::size_t col, std::size_t row) {
     std::size_t const west = col < 15 ? 0 : col - 15;

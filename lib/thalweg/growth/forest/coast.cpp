@@ -142,61 +142,6 @@ void tidy(Mask& land) {
     }
 }
 
-} // namespace
-
-Mask shape_island(Grid const& grid, IslandParams const& params, Run const& run) {
-    require_in("growth.shape_island", "ruggedness", params.ruggedness, Range::between(0.0, 1.0));
-    refuse_if<BadInput>(std::min(grid.width, grid.height) < 16,
-                        "growth.shape_island: the grid has {} x {} cells, an island needs 16 x 16", grid.width,
-                        grid.height);
-    auto const width = static_cast<double>(grid.width);
-    auto const height = static_cast<double>(grid.height);
-    double const shorter = std::min(width, height);
-    double const margin = std::max(1.0, shorter / 40.0);
-    constexpr double shortest = 8.0; // cells
-    double const span = 0.5 * std::sqrt(width * width + height * height) + shorter;
-    std::vector<Octave> const moves = octaves(0.6 * shorter, shortest, params.seed, 0, span);
-    std::vector<Octave> const bends_x = octaves(0.7 * shorter, 0.05 * shorter, params.seed, 32, span);
-    std::vector<Octave> const bends_y = octaves(0.7 * shorter, 0.05 * shorter, params.seed, 64, span);
-    double const bend = 0.35 * params.ruggedness * shorter;
-    Vec2 const middle{sum(bends_x, 0.0, 0.0), sum(bends_y, 0.0, 0.0)};
-    // Islands are longer than wide, in any direction.
-    auto const words = random_block(params.seed, island_stage, 96);
-    double const turn = portable::pi * unit(words[0]);
-    double const slender = 1.0 + 0.5 * unit(words[1]) * params.ruggedness;
-    Vec2 const along{portable::cos(turn), portable::sin(turn)};
-
-    Raster<float> above(grid, -std::numeric_limits<float>::infinity());
-    parallel_ranges(run, grid.height, 16, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t row = begin; row < end; ++row) {
-            for (std::int64_t col = 0; col < grid.width; ++col) {
-                double const x = static_cast<double>(col) + 0.5 - 0.5 * width;
-                double const y = static_cast<double>(row) + 0.5 - 0.5 * height;
-                double const to_edge = std::min(0.5 * width - std::fabs(x), 0.5 * height - std::fabs(y));
-                if (to_edge < margin) {
-                    continue;
-                }
-                double const bent_x = x + bend * (sum(bends_x, x, y) - middle.x);
-                double const bent_y = y + bend * (sum(bends_y, x, y) - middle.y);
-                double const u = 2.0 * bent_x / width;
-                double const v = 2.0 * bent_y / height;
-                double const length = along.x * u + along.y * v;
-                double const breadth = slender * (along.x * v - along.y * u);
-                double const oval = std::sqrt(length * length + breadth * breadth);
-                // Near the margin the sea dominates, so that the margin never cuts the coast straight.
-                double const sea = 1.0 - std::min(1.0, (to_edge - margin) / (0.15 * shorter));
-                above[Cell{col, row}] =
-                    static_cast<float>(params.ruggedness * sum(moves, bent_x, bent_y) - oval - 0.8 * sea * sea * sea);
-            }
-        }
-    });
-    Mask land = highest(above, share_of_land);
-    tidy(land);
-    return land;
-}
-
-namespace {
-
 constexpr std::uint64_t outlet_stage = 0x6f75746c65747331; // "outlets1"
 constexpr double least_apart_cells = 3.0;
 
@@ -270,6 +215,57 @@ private:
 };
 
 } // namespace
+
+Mask shape_island(Grid const& grid, IslandParams const& params, Run const& run) {
+    require_in("growth.shape_island", "ruggedness", params.ruggedness, Range::between(0.0, 1.0));
+    refuse_if<BadInput>(std::min(grid.width, grid.height) < 16,
+                        "growth.shape_island: the grid has {} x {} cells, an island needs 16 x 16", grid.width,
+                        grid.height);
+    auto const width = static_cast<double>(grid.width);
+    auto const height = static_cast<double>(grid.height);
+    double const shorter = std::min(width, height);
+    double const margin = std::max(1.0, shorter / 40.0);
+    constexpr double shortest = 8.0; // cells
+    double const span = 0.5 * std::sqrt(width * width + height * height) + shorter;
+    std::vector<Octave> const moves = octaves(0.6 * shorter, shortest, params.seed, 0, span);
+    std::vector<Octave> const bends_x = octaves(0.7 * shorter, 0.05 * shorter, params.seed, 32, span);
+    std::vector<Octave> const bends_y = octaves(0.7 * shorter, 0.05 * shorter, params.seed, 64, span);
+    double const bend = 0.35 * params.ruggedness * shorter;
+    Vec2 const middle{sum(bends_x, 0.0, 0.0), sum(bends_y, 0.0, 0.0)};
+    // Islands are longer than wide, in any direction.
+    auto const words = random_block(params.seed, island_stage, 96);
+    double const turn = portable::pi * unit(words[0]);
+    double const slender = 1.0 + 0.5 * unit(words[1]) * params.ruggedness;
+    Vec2 const along{portable::cos(turn), portable::sin(turn)};
+
+    Raster<float> above(grid, -std::numeric_limits<float>::infinity());
+    parallel_ranges(run, grid.height, 16, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t row = begin; row < end; ++row) {
+            for (std::int64_t col = 0; col < grid.width; ++col) {
+                double const x = static_cast<double>(col) + 0.5 - 0.5 * width;
+                double const y = static_cast<double>(row) + 0.5 - 0.5 * height;
+                double const to_edge = std::min(0.5 * width - std::fabs(x), 0.5 * height - std::fabs(y));
+                if (to_edge < margin) {
+                    continue;
+                }
+                double const bent_x = x + bend * (sum(bends_x, x, y) - middle.x);
+                double const bent_y = y + bend * (sum(bends_y, x, y) - middle.y);
+                double const u = 2.0 * bent_x / width;
+                double const v = 2.0 * bent_y / height;
+                double const length = along.x * u + along.y * v;
+                double const breadth = slender * (along.x * v - along.y * u);
+                double const oval = std::sqrt(length * length + breadth * breadth);
+                // Near the margin the sea dominates, so that the margin never cuts the coast straight.
+                double const sea = 1.0 - std::min(1.0, (to_edge - margin) / (0.15 * shorter));
+                above[Cell{col, row}] =
+                    static_cast<float>(params.ruggedness * sum(moves, bent_x, bent_y) - oval - 0.8 * sea * sea * sea);
+            }
+        }
+    });
+    Mask land = highest(above, share_of_land);
+    tidy(land);
+    return land;
+}
 
 std::vector<Cell> coast_cells(Mask const& land) {
     std::vector<Cell> coast;

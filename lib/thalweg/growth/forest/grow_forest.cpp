@@ -112,6 +112,44 @@ Grid blocks_of(Grid const& grid, std::int64_t side) {
     return blocks;
 }
 
+constexpr std::uint64_t forest_stage = 0x666f726573743031; // "forest01"
+
+void check(Mask const& region, std::vector<Cell> const& seeds, ForestParams const& params) {
+    constexpr std::int64_t longest = 1 << 20;
+    require_in("growth.grow_forest", "step_cells", params.step_cells, Range::between(1, 100));
+    refuse_if<BadParameter>(params.particles < 0,
+                            "growth.grow_forest: particles is {}, it must be at least 1, or 0 for all that find room",
+                            params.particles);
+    require_in("growth.grow_forest", "sticking", params.sticking, Range{0.0, 1.0, false, true});
+    require_in("growth.grow_forest", "visits", params.visits, Range::between(1, 255));
+    refuse_if<BadInput>(std::max(region.width(), region.height()) > longest,
+                        "growth.grow_forest: the region has {} x {} cells, at most {} a side are possible",
+                        region.width(), region.height(), longest);
+    refuse_if<BadInput>(seeds.empty(), "growth.grow_forest: there is no seed, give at least one");
+    for (Cell const s : seeds) {
+        refuse_if<BadInput>(!region.grid().contains(s) || region[s] == 0,
+                            "growth.grow_forest: the seed ({}, {}) lies outside the region", s.col, s.row);
+    }
+}
+
+/// Counts arrivals until the noise-reduction count is reached.
+class ArrivalCounts {
+public:
+    ArrivalCounts(Grid const& grid, int wanted) : wanted_(wanted), seen_(wanted > 1 ? grid : Grid{}, 0) {}
+
+    bool enough(Cell c) {
+        if (wanted_ == 1) {
+            return true;
+        }
+        seen_[c] = static_cast<std::uint8_t>(std::min(seen_[c] + 1, wanted_));
+        return seen_[c] == wanted_;
+    }
+
+private:
+    int wanted_;
+    Mask seen_;
+};
+
 } // namespace
 
 ForestGrowth::ForestGrowth(Mask const& region, std::vector<Cell> const& seeds, std::int64_t step, Run const& run)
@@ -243,48 +281,6 @@ void ForestGrowth::find_start_cells() {
     }
     added_since_search_ = 0;
 }
-
-namespace {
-
-constexpr std::uint64_t forest_stage = 0x666f726573743031; // "forest01"
-
-void check(Mask const& region, std::vector<Cell> const& seeds, ForestParams const& params) {
-    constexpr std::int64_t longest = 1 << 20;
-    require_in("growth.grow_forest", "step_cells", params.step_cells, Range::between(1, 100));
-    refuse_if<BadParameter>(params.particles < 0,
-                            "growth.grow_forest: particles is {}, it must be at least 1, or 0 for all that find room",
-                            params.particles);
-    require_in("growth.grow_forest", "sticking", params.sticking, Range{0.0, 1.0, false, true});
-    require_in("growth.grow_forest", "visits", params.visits, Range::between(1, 255));
-    refuse_if<BadInput>(std::max(region.width(), region.height()) > longest,
-                        "growth.grow_forest: the region has {} x {} cells, at most {} a side are possible",
-                        region.width(), region.height(), longest);
-    refuse_if<BadInput>(seeds.empty(), "growth.grow_forest: there is no seed, give at least one");
-    for (Cell const s : seeds) {
-        refuse_if<BadInput>(!region.grid().contains(s) || region[s] == 0,
-                            "growth.grow_forest: the seed ({}, {}) lies outside the region", s.col, s.row);
-    }
-}
-
-/// Counts arrivals until the noise-reduction count is reached.
-class ArrivalCounts {
-public:
-    ArrivalCounts(Grid const& grid, int wanted) : wanted_(wanted), seen_(wanted > 1 ? grid : Grid{}, 0) {}
-
-    bool enough(Cell c) {
-        if (wanted_ == 1) {
-            return true;
-        }
-        seen_[c] = static_cast<std::uint8_t>(std::min(seen_[c] + 1, wanted_));
-        return seen_[c] == wanted_;
-    }
-
-private:
-    int wanted_;
-    Mask seen_;
-};
-
-} // namespace
 
 GrownForest grow_forest(Mask const& region, std::vector<Cell> const& seeds, ForestParams const& params,
                         Run const& run) {

@@ -199,68 +199,6 @@ void require_apart(Strokes const& strokes, RiverLines const& names, double toler
     }
 }
 
-} // namespace
-
-Strokes join_strokes(RiverLines const& drawn, Grid const& grid, Run const& run) {
-    double const tolerance_m = 0.5 * grid.cell_m;
-    Strokes strokes;
-    for (RiverLine const& line : drawn.lines) {
-        strokes.push_back(as_drawn(line, drawn, grid));
-    }
-    std::vector<Spot> spots;
-    for (std::size_t k = 0; k < strokes.size(); ++k) {
-        spots.push_back(find_beginning(k, strokes, tolerance_m));
-    }
-    require_apart(strokes, drawn, tolerance_m);
-    for (std::size_t const k : downstream_first(strokes)) {
-        if (strokes[k].onto >= 0) {
-            move_beginning(strokes[k], strokes[strokes[k].onto], spots[k]);
-        }
-        if (!(strokes[k].way.back() > tolerance_m)) {
-            throw BadInput(named(drawn, strokes[k].feature, strokes[k].line.front()) +
-                           " is no longer than half a cell; draw it longer");
-        }
-    }
-    require_mouths_below(strokes, drawn, tolerance_m);
-    require_joined(strokes, drawn, 2.0 * tolerance_m, run);
-    return strokes;
-}
-
-double distance_to(Stroke const& stroke, Vec2 p) {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i + 1 < stroke.line.size(); ++i) {
-        least = std::min(least, distance(p, geometry::foot_on(stroke.line[i], stroke.line[i + 1], p).at));
-    }
-    return least;
-}
-
-std::vector<std::size_t> downstream_first(Strokes const& strokes) {
-    std::vector<std::size_t> turn;
-    std::vector<std::uint8_t> done(strokes.size(), 0);
-    while (turn.size() < strokes.size()) {
-        for (std::size_t k = 0; k < strokes.size(); ++k) {
-            if (done[k] == 0 && (strokes[k].onto < 0 || done[strokes[k].onto] != 0)) {
-                done[k] = 1;
-                turn.push_back(k);
-            }
-        }
-    }
-    return turn;
-}
-
-Vec2 place_at(Stroke const& stroke, double way_m) {
-    std::size_t i = 1;
-    while (i + 1 < stroke.line.size() && stroke.way[i] < way_m) {
-        ++i;
-    }
-    double const share = std::clamp((way_m - stroke.way[i - 1]) / (stroke.way[i] - stroke.way[i - 1]), 0.0, 1.0);
-    Vec2 const a = stroke.line[i - 1];
-    Vec2 const b = stroke.line[i];
-    return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)};
-}
-
-namespace {
-
 constexpr double coarse = 1.0 / 24.0; // relative to the reach: spacing of the lattice that measures areas
 
 /// Whether a position lies to the left of the nearest part of a stroke.
@@ -278,60 +216,6 @@ bool left_of(Stroke const& stroke, Vec2 p) {
     return left;
 }
 
-} // namespace
-
-std::vector<Vec2> StrokeLands::sample(std::size_t stroke, double width_m) const {
-    double const far = reach_m(stroke);
-    Vec2 low = strokes_[stroke].line.front();
-    Vec2 high = low;
-    for (Vec2 const p : strokes_[stroke].line) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-    }
-    low = {std::max(low.x - far, grid_.west), std::max(low.y - far, grid_.south())};
-    high = {std::min(high.x + far, grid_.east()), std::min(high.y + far, grid_.north)};
-    std::vector<Vec2> places;
-    for (double y = low.y + 0.5 * width_m; y < high.y; y += width_m) {
-        for (double x = low.x + 0.5 * width_m; x < high.x; x += width_m) {
-            if (belongs(stroke, {x, y})) {
-                places.push_back({x, y});
-            }
-        }
-    }
-    return places;
-}
-
-double StrokeLands::area_m2(std::size_t stroke) const {
-    double const width = coarse * reach_m(stroke);
-    return std::max(1.0, static_cast<double>(sample(stroke, width).size())) * width * width;
-}
-
-double StrokeLands::share_left(std::size_t stroke) const {
-    std::vector<Vec2> const places = sample(stroke, coarse * reach_m(stroke));
-    auto const left =
-        std::count_if(places.begin(), places.end(), [&](Vec2 const p) { return left_of(strokes_[stroke], p); });
-    return places.empty() ? 0.5 : static_cast<double>(left) / static_cast<double>(places.size());
-}
-
-bool StrokeLands::belongs(std::size_t stroke, Vec2 p) const {
-    double const own = distance_to(strokes_[stroke], p) / reach_m(stroke);
-    if (!(own < 1.0)) {
-        return false;
-    }
-    for (std::size_t k = 0; k < strokes_.size(); ++k) {
-        if (k == stroke) {
-            continue;
-        }
-        double const other = distance_to(strokes_[k], p) / reach_m(k);
-        if (other < own || (other == own && k < stroke)) {
-            return false;
-        }
-    }
-    return true;
-}
-
-namespace {
-
 struct Wing {
     LinkId link;
     std::int64_t links; ///< with all upstream
@@ -345,58 +229,6 @@ std::vector<std::int64_t> sizes_of(TokunagaTree const& tree) {
     }
     return links;
 }
-
-} // namespace
-
-std::vector<std::size_t> trunk_of(TokunagaTree const& tree) {
-    std::vector<std::size_t> trunk;
-    LinkId link = 0;
-    while (link >= 0) {
-        TreeLink const& here = tree.links[link];
-        trunk.push_back(static_cast<std::size_t>(link));
-        LinkId const next = here.up[0];
-        link = next >= 0 && tree.links[next].order == here.order ? next : -1;
-    }
-    return trunk;
-}
-
-void balance_banks(TokunagaTree& tree, double share_left) {
-    require_in("growth.balance_banks", "share_left", share_left, Range::between(0.0, 1.0));
-    std::vector<std::int64_t> const sizes = sizes_of(tree);
-    std::int64_t left = 0;
-    std::int64_t right = 0;
-    std::vector<Wing> branches;
-    for (std::size_t const t : trunk_of(tree)) {
-        for (LinkId const up : tree.links[t].up) {
-            if (up < 0 || tree.links[up].turn == 0) {
-                continue;
-            }
-            int const turn = tree.links[up].turn;
-            if (turn == 1 || turn == -1) { // of the fork
-                (turn > 0 ? left : right) += sizes[up];
-            } else {
-                branches.push_back({up, sizes[up]});
-            }
-        }
-    }
-    std::stable_sort(branches.begin(), branches.end(), [](Wing const& a, Wing const& b) { return a.links > b.links; });
-    std::int64_t all = left + right;
-    for (Wing const& branch : branches) {
-        all += branch.links;
-    }
-    double const wanted_left = share_left * static_cast<double>(all);
-    double const wanted_right = static_cast<double>(all) - wanted_left;
-    for (Wing const& branch : branches) {
-        double const lacks_left = wanted_left - static_cast<double>(left);
-        double const lacks_right = wanted_right - static_cast<double>(right);
-        bool const goes_left =
-            lacks_left > lacks_right || (lacks_left == lacks_right && tree.links[branch.link].turn > 0);
-        tree.links[branch.link].turn = goes_left ? 2 : -2;
-        (goes_left ? left : right) += branch.links;
-    }
-}
-
-namespace {
 
 constexpr std::uint64_t stroke_stage = 0x7374726f6b65; // "stroke"
 
@@ -556,6 +388,162 @@ void require_in_place(Strokes const& strokes, RiverLines const& drawn, std::vect
 }
 
 } // namespace
+
+Strokes join_strokes(RiverLines const& drawn, Grid const& grid, Run const& run) {
+    double const tolerance_m = 0.5 * grid.cell_m;
+    Strokes strokes;
+    for (RiverLine const& line : drawn.lines) {
+        strokes.push_back(as_drawn(line, drawn, grid));
+    }
+    std::vector<Spot> spots;
+    for (std::size_t k = 0; k < strokes.size(); ++k) {
+        spots.push_back(find_beginning(k, strokes, tolerance_m));
+    }
+    require_apart(strokes, drawn, tolerance_m);
+    for (std::size_t const k : downstream_first(strokes)) {
+        if (strokes[k].onto >= 0) {
+            move_beginning(strokes[k], strokes[strokes[k].onto], spots[k]);
+        }
+        if (!(strokes[k].way.back() > tolerance_m)) {
+            throw BadInput(named(drawn, strokes[k].feature, strokes[k].line.front()) +
+                           " is no longer than half a cell; draw it longer");
+        }
+    }
+    require_mouths_below(strokes, drawn, tolerance_m);
+    require_joined(strokes, drawn, 2.0 * tolerance_m, run);
+    return strokes;
+}
+
+double distance_to(Stroke const& stroke, Vec2 p) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i + 1 < stroke.line.size(); ++i) {
+        least = std::min(least, distance(p, geometry::foot_on(stroke.line[i], stroke.line[i + 1], p).at));
+    }
+    return least;
+}
+
+std::vector<std::size_t> downstream_first(Strokes const& strokes) {
+    std::vector<std::size_t> turn;
+    std::vector<std::uint8_t> done(strokes.size(), 0);
+    while (turn.size() < strokes.size()) {
+        for (std::size_t k = 0; k < strokes.size(); ++k) {
+            if (done[k] == 0 && (strokes[k].onto < 0 || done[strokes[k].onto] != 0)) {
+                done[k] = 1;
+                turn.push_back(k);
+            }
+        }
+    }
+    return turn;
+}
+
+Vec2 place_at(Stroke const& stroke, double way_m) {
+    std::size_t i = 1;
+    while (i + 1 < stroke.line.size() && stroke.way[i] < way_m) {
+        ++i;
+    }
+    double const share = std::clamp((way_m - stroke.way[i - 1]) / (stroke.way[i] - stroke.way[i - 1]), 0.0, 1.0);
+    Vec2 const a = stroke.line[i - 1];
+    Vec2 const b = stroke.line[i];
+    return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)};
+}
+
+std::vector<Vec2> StrokeLands::sample(std::size_t stroke, double width_m) const {
+    double const far = reach_m(stroke);
+    Vec2 low = strokes_[stroke].line.front();
+    Vec2 high = low;
+    for (Vec2 const p : strokes_[stroke].line) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+    low = {std::max(low.x - far, grid_.west), std::max(low.y - far, grid_.south())};
+    high = {std::min(high.x + far, grid_.east()), std::min(high.y + far, grid_.north)};
+    std::vector<Vec2> places;
+    for (double y = low.y + 0.5 * width_m; y < high.y; y += width_m) {
+        for (double x = low.x + 0.5 * width_m; x < high.x; x += width_m) {
+            if (belongs(stroke, {x, y})) {
+                places.push_back({x, y});
+            }
+        }
+    }
+    return places;
+}
+
+double StrokeLands::area_m2(std::size_t stroke) const {
+    double const width = coarse * reach_m(stroke);
+    return std::max(1.0, static_cast<double>(sample(stroke, width).size())) * width * width;
+}
+
+double StrokeLands::share_left(std::size_t stroke) const {
+    std::vector<Vec2> const places = sample(stroke, coarse * reach_m(stroke));
+    auto const left =
+        std::count_if(places.begin(), places.end(), [&](Vec2 const p) { return left_of(strokes_[stroke], p); });
+    return places.empty() ? 0.5 : static_cast<double>(left) / static_cast<double>(places.size());
+}
+
+bool StrokeLands::belongs(std::size_t stroke, Vec2 p) const {
+    double const own = distance_to(strokes_[stroke], p) / reach_m(stroke);
+    if (!(own < 1.0)) {
+        return false;
+    }
+    for (std::size_t k = 0; k < strokes_.size(); ++k) {
+        if (k == stroke) {
+            continue;
+        }
+        double const other = distance_to(strokes_[k], p) / reach_m(k);
+        if (other < own || (other == own && k < stroke)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+std::vector<std::size_t> trunk_of(TokunagaTree const& tree) {
+    std::vector<std::size_t> trunk;
+    LinkId link = 0;
+    while (link >= 0) {
+        TreeLink const& here = tree.links[link];
+        trunk.push_back(static_cast<std::size_t>(link));
+        LinkId const next = here.up[0];
+        link = next >= 0 && tree.links[next].order == here.order ? next : -1;
+    }
+    return trunk;
+}
+
+void balance_banks(TokunagaTree& tree, double share_left) {
+    require_in("growth.balance_banks", "share_left", share_left, Range::between(0.0, 1.0));
+    std::vector<std::int64_t> const sizes = sizes_of(tree);
+    std::int64_t left = 0;
+    std::int64_t right = 0;
+    std::vector<Wing> branches;
+    for (std::size_t const t : trunk_of(tree)) {
+        for (LinkId const up : tree.links[t].up) {
+            if (up < 0 || tree.links[up].turn == 0) {
+                continue;
+            }
+            int const turn = tree.links[up].turn;
+            if (turn == 1 || turn == -1) { // of the fork
+                (turn > 0 ? left : right) += sizes[up];
+            } else {
+                branches.push_back({up, sizes[up]});
+            }
+        }
+    }
+    std::stable_sort(branches.begin(), branches.end(), [](Wing const& a, Wing const& b) { return a.links > b.links; });
+    std::int64_t all = left + right;
+    for (Wing const& branch : branches) {
+        all += branch.links;
+    }
+    double const wanted_left = share_left * static_cast<double>(all);
+    double const wanted_right = static_cast<double>(all) - wanted_left;
+    for (Wing const& branch : branches) {
+        double const lacks_left = wanted_left - static_cast<double>(left);
+        double const lacks_right = wanted_right - static_cast<double>(right);
+        bool const goes_left =
+            lacks_left > lacks_right || (lacks_left == lacks_right && tree.links[branch.link].turn > 0);
+        tree.links[branch.link].turn = goes_left ? 2 : -2;
+        (goes_left ? left : right) += branch.links;
+    }
+}
 
 GrownStrokes grow_strokes(RiverLines const& drawn, Grid const& grid, StrokesParams const& params, Run const& run) {
     check(params);

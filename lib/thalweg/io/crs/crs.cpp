@@ -34,6 +34,59 @@ bool has_database() {
     return OGRSpatialReference().importFromEPSG(4326) == OGRERR_NONE;
 }
 
+/// Longitudes and latitudes of the body that a CRS belongs to: of the Earth WGS 84.
+OGRSpatialReference globe_of(OGRSpatialReference const& reference) {
+    std::unique_ptr<OGRSpatialReference> const own(is_on_earth(reference) ? nullptr : reference.CloneGeogCS());
+    OGRSpatialReference globe = own ? *own : read_reference("EPSG:4326");
+    globe.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    return globe;
+}
+
+double side_of_geographic(Grid const& grid, OGRSpatialReference const& reference) {
+    double const unit = reference.GetAngularUnits(nullptr);
+    double const latitude = 0.5 * (grid.north + grid.south()) * unit;
+    if (!(std::fabs(latitude) < portable::pi / 2.0)) {
+        throw BadInput(
+            fmt::format("io.ground_cell: the middle of the grid lies at latitude {:.3f} degrees, not between "
+                        "the poles; give the grid its true place",
+                        latitude * 180.0 / portable::pi));
+    }
+    double const flattening = reference.GetInvFlattening() > 0.0 ? 1.0 / reference.GetInvFlattening() : 0.0;
+    double const eccentricity_2 = flattening * (2.0 - flattening);
+    double const sine = portable::sin(latitude);
+    // Geometric mean of the radii of curvature along and across the meridian.
+    double const radius =
+        reference.GetSemiMajor() * std::sqrt(1.0 - eccentricity_2) / (1.0 - eccentricity_2 * sine * sine);
+    return grid.cell_m * unit * radius * std::sqrt(portable::cos(latitude));
+}
+
+std::optional<std::string> crs_instead_of(OGRSpatialReference const& reference, Grid const& grid) {
+    Driver const driver;
+    return less_distorted(reference, {{grid.west, grid.south()}, {grid.east(), grid.north}}, "the grid");
+}
+
+// East may exceed 180, but not west + 360.
+DegreeBox box_of(Grid const& grid, std::string const& what) {
+    Driver const driver;
+    OGRSpatialReference const from = read_reference(grid.crs);
+    OGRSpatialReference const globe = globe_of(from);
+    std::unique_ptr<OGRCoordinateTransformation> const turn(OGRCreateCoordinateTransformation(&from, &globe));
+    DegreeBox box;
+    constexpr int points_a_side = 21;
+    if (!turn || turn->TransformBounds(grid.west, grid.south(), grid.east(), grid.north, &box.west, &box.south,
+                                       &box.east, &box.north, points_a_side) == 0) {
+        throw BadInput(fmt::format("{} lies where its CRS has no longitude and latitude; check its position: {}", what,
+                                   driver.take()));
+    }
+    if (box.east < box.west) {
+        box.east += 360.0; // across the antimeridian
+    }
+    if (from.IsGeographic() != 0) { // a globe and half a cell is no strip at the antimeridian
+        box.east = box.west + (grid.east() - grid.west) * from.GetAngularUnits(nullptr) * 180.0 / portable::pi;
+    }
+    return box;
+}
+
 } // namespace
 
 OGRSpatialReference read_reference(std::string const& text) {
@@ -75,18 +128,6 @@ OGRSpatialReference equal_area_around(double longitude_deg, double latitude_deg,
     centred.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     return centred;
 }
-
-namespace {
-
-/// Longitudes and latitudes of the body that a CRS belongs to: of the Earth WGS 84.
-OGRSpatialReference globe_of(OGRSpatialReference const& reference) {
-    std::unique_ptr<OGRSpatialReference> const own(is_on_earth(reference) ? nullptr : reference.CloneGeogCS());
-    OGRSpatialReference globe = own ? *own : read_reference("EPSG:4326");
-    globe.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-    return globe;
-}
-
-} // namespace
 
 std::string metric_crs_around(OGRSpatialReference const& own, Vec2 middle_deg, double wide_deg) {
     constexpr double widest_zone_deg = 12.0;
@@ -265,33 +306,6 @@ bool same_cells(Grid const& a, Grid const& b) {
            std::fabs(a.south() - b.south()) <= most;
 }
 
-namespace {
-
-double side_of_geographic(Grid const& grid, OGRSpatialReference const& reference) {
-    double const unit = reference.GetAngularUnits(nullptr);
-    double const latitude = 0.5 * (grid.north + grid.south()) * unit;
-    if (!(std::fabs(latitude) < portable::pi / 2.0)) {
-        throw BadInput(
-            fmt::format("io.ground_cell: the middle of the grid lies at latitude {:.3f} degrees, not between "
-                        "the poles; give the grid its true place",
-                        latitude * 180.0 / portable::pi));
-    }
-    double const flattening = reference.GetInvFlattening() > 0.0 ? 1.0 / reference.GetInvFlattening() : 0.0;
-    double const eccentricity_2 = flattening * (2.0 - flattening);
-    double const sine = portable::sin(latitude);
-    // Geometric mean of the radii of curvature along and across the meridian.
-    double const radius =
-        reference.GetSemiMajor() * std::sqrt(1.0 - eccentricity_2) / (1.0 - eccentricity_2 * sine * sine);
-    return grid.cell_m * unit * radius * std::sqrt(portable::cos(latitude));
-}
-
-std::optional<std::string> crs_instead_of(OGRSpatialReference const& reference, Grid const& grid) {
-    Driver const driver;
-    return less_distorted(reference, {{grid.west, grid.south()}, {grid.east(), grid.north}}, "the grid");
-}
-
-} // namespace
-
 GroundCell ground_cell(Grid const& grid) {
     if (grid.crs.empty()) {
         return {GridUnit::unknown, grid.cell_m, ""};
@@ -321,32 +335,6 @@ bool is_distorted(Grid const& grid) {
     reference.StripVertical();
     return is_projected_in_metres(reference) && crs_instead_of(reference, grid).has_value();
 }
-
-namespace {
-
-// East may exceed 180, but not west + 360.
-DegreeBox box_of(Grid const& grid, std::string const& what) {
-    Driver const driver;
-    OGRSpatialReference const from = read_reference(grid.crs);
-    OGRSpatialReference const globe = globe_of(from);
-    std::unique_ptr<OGRCoordinateTransformation> const turn(OGRCreateCoordinateTransformation(&from, &globe));
-    DegreeBox box;
-    constexpr int points_a_side = 21;
-    if (!turn || turn->TransformBounds(grid.west, grid.south(), grid.east(), grid.north, &box.west, &box.south,
-                                       &box.east, &box.north, points_a_side) == 0) {
-        throw BadInput(fmt::format("{} lies where its CRS has no longitude and latitude; check its position: {}", what,
-                                   driver.take()));
-    }
-    if (box.east < box.west) {
-        box.east += 360.0; // across the antimeridian
-    }
-    if (from.IsGeographic() != 0) { // a globe and half a cell is no strip at the antimeridian
-        box.east = box.west + (grid.east() - grid.west) * from.GetAngularUnits(nullptr) * 180.0 / portable::pi;
-    }
-    return box;
-}
-
-} // namespace
 
 bool overlap_on_earth(Grid const& a, Grid const& b, std::string const& of_a, std::string const& of_b) {
     DegreeBox const p = box_of(a, of_a);

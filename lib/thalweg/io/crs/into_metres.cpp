@@ -84,6 +84,51 @@ double length_error(OGRSpatialReference const& projected, OGRSpatialReference co
     return count == 0 ? 0.0 : sum / count;
 }
 
+// Nothing if a corner is not on the globe.
+std::optional<DegreeBox> degrees_of(FileBox const& box, OGRCoordinateTransformation& turn) {
+    constexpr int points_a_side = 21;
+    Driver const driver; // a missing position is not an error
+    DegreeBox degrees;
+    bool const done = turn.TransformBounds(box.low.x, box.low.y, box.high.x, box.high.y, &degrees.west, &degrees.south,
+                                           &degrees.east, &degrees.north, points_a_side) != 0;
+    bool const on_earth = done && std::fabs(degrees.west) <= 360.0 && std::fabs(degrees.east) <= 360.0 &&
+                          std::fabs(degrees.south) <= 90.0 && std::fabs(degrees.north) <= 90.0;
+    if (!on_earth) {
+        return std::nullopt;
+    }
+    degrees.east += degrees.east < degrees.west ? 360.0 : 0.0; // across the antimeridian
+    return degrees;
+}
+
+// metric_crs_around the middle of a box whose coordinates are in `from`. Longitudes on both sides of 180 degrees form
+// one box if that is narrower. Throws BadInput when the middle has no longitude and latitude or the box spans more than
+// 180 degrees of longitude: "io.into_metres: name ...".
+std::string zone_of(FileBox const& given, OGRSpatialReference const& from, std::string const& name) {
+    FileBox box = given;
+    if (from.IsGeographic() != 0 && box.across_180 && box.high.x - box.low.x > 180.0 &&
+        box.across_180->y - box.across_180->x < box.high.x - box.low.x) {
+        box.low.x = box.across_180->x;
+        box.high.x = box.across_180->y;
+    }
+    Vec2 const at{0.5 * (box.low.x + box.high.x), 0.5 * (box.low.y + box.high.y)};
+    OGRSpatialReference const geographic = read_reference("EPSG:4326");
+    Transformation const turn(OGRCreateCoordinateTransformation(&from, &geographic));
+    Vec2 turned = at;
+    bool const on_earth = turn && turn->Transform(1, &turned.x, &turned.y) != 0 && std::fabs(turned.x) <= 360.0 &&
+                          std::fabs(turned.y) <= 90.0;
+    refuse_if<BadInput>(
+        !on_earth,
+        "io.into_metres: the middle of {}, at ({}, {}), has no longitude and latitude in its CRS, {}; check both", name,
+        at.x, at.y, from.GetName());
+    auto const degrees = degrees_of(box, *turn);
+    bool const has_zone = turned.y >= -80.0 && turned.y <= 84.0;
+    if (!has_zone || !degrees) {
+        return utm_zone(turned.x, turned.y);
+    }
+    require_half_a_globe(degrees->west, degrees->east, "io.into_metres: " + name);
+    return metric_crs_around(from, turned, degrees->east - degrees->west);
+}
+
 } // namespace
 
 struct GroundScale::Turn {
@@ -144,55 +189,6 @@ std::optional<PointScale> GroundScale::at(Vec2 place) const {
     return PointScale{std::sqrt(axes.area),
                       std::max(std::fabs(1.0 / axes.longest - 1.0), std::fabs(1.0 / axes.shortest - 1.0))};
 }
-
-namespace {
-
-// Nothing if a corner is not on the globe.
-std::optional<DegreeBox> degrees_of(FileBox const& box, OGRCoordinateTransformation& turn) {
-    constexpr int points_a_side = 21;
-    Driver const driver; // a missing position is not an error
-    DegreeBox degrees;
-    bool const done = turn.TransformBounds(box.low.x, box.low.y, box.high.x, box.high.y, &degrees.west, &degrees.south,
-                                           &degrees.east, &degrees.north, points_a_side) != 0;
-    bool const on_earth = done && std::fabs(degrees.west) <= 360.0 && std::fabs(degrees.east) <= 360.0 &&
-                          std::fabs(degrees.south) <= 90.0 && std::fabs(degrees.north) <= 90.0;
-    if (!on_earth) {
-        return std::nullopt;
-    }
-    degrees.east += degrees.east < degrees.west ? 360.0 : 0.0; // across the antimeridian
-    return degrees;
-}
-
-// metric_crs_around the middle of a box whose coordinates are in `from`. Longitudes on both sides of 180 degrees form
-// one box if that is narrower. Throws BadInput when the middle has no longitude and latitude or the box spans more than
-// 180 degrees of longitude: "io.into_metres: name ...".
-std::string zone_of(FileBox const& given, OGRSpatialReference const& from, std::string const& name) {
-    FileBox box = given;
-    if (from.IsGeographic() != 0 && box.across_180 && box.high.x - box.low.x > 180.0 &&
-        box.across_180->y - box.across_180->x < box.high.x - box.low.x) {
-        box.low.x = box.across_180->x;
-        box.high.x = box.across_180->y;
-    }
-    Vec2 const at{0.5 * (box.low.x + box.high.x), 0.5 * (box.low.y + box.high.y)};
-    OGRSpatialReference const geographic = read_reference("EPSG:4326");
-    Transformation const turn(OGRCreateCoordinateTransformation(&from, &geographic));
-    Vec2 turned = at;
-    bool const on_earth = turn && turn->Transform(1, &turned.x, &turned.y) != 0 && std::fabs(turned.x) <= 360.0 &&
-                          std::fabs(turned.y) <= 90.0;
-    refuse_if<BadInput>(
-        !on_earth,
-        "io.into_metres: the middle of {}, at ({}, {}), has no longitude and latitude in its CRS, {}; check both", name,
-        at.x, at.y, from.GetName());
-    auto const degrees = degrees_of(box, *turn);
-    bool const has_zone = turned.y >= -80.0 && turned.y <= 84.0;
-    if (!has_zone || !degrees) {
-        return utm_zone(turned.x, turned.y);
-    }
-    require_half_a_globe(degrees->west, degrees->east, "io.into_metres: " + name);
-    return metric_crs_around(from, turned, degrees->east - degrees->west);
-}
-
-} // namespace
 
 bool is_distorted(OGRSpatialReference const& own, FileBox const& box) {
     return is_on_earth(own) && is_projected_in_metres(own) && length_error(own, own, box) > most_length_error;

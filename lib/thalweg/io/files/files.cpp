@@ -124,47 +124,6 @@ void remove_stale_temporaries(fs::path const& folder) noexcept {
     }
 }
 
-} // namespace
-
-std::string lower_extension(std::string const& path) {
-    std::string extension = fs::path(path).extension().string();
-    std::ranges::transform(extension, extension.begin(),
-                           [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    return extension;
-}
-
-std::string simple_name(std::string_view name) {
-    std::string out;
-    for (char const c : name) {
-        char const lower = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-        if ((lower >= 'a' && lower <= 'z') || (lower >= '0' && lower <= '9')) {
-            out += lower;
-        }
-    }
-    return out;
-}
-
-NewFile::NewFile(std::string const& path, std::string who)
-    : who_(std::move(who)), file_(std::fopen(path.c_str(), "wbx")) {
-    if (file_ == nullptr) {
-        fail(who_, last_error());
-    }
-}
-
-void NewFile::append(std::string_view bytes) {
-    if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) {
-        fail(who_, last_error());
-    }
-}
-
-void NewFile::close() {
-    if (std::fclose(file_.release()) != 0) {
-        fail(who_, last_error());
-    }
-}
-
-namespace {
-
 void require(std::error_code error, std::string const& what) {
     if (error) {
         fail(what, error);
@@ -263,6 +222,43 @@ private:
 };
 
 } // namespace
+
+std::string lower_extension(std::string const& path) {
+    std::string extension = fs::path(path).extension().string();
+    std::ranges::transform(extension, extension.begin(),
+                           [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    return extension;
+}
+
+std::string simple_name(std::string_view name) {
+    std::string out;
+    for (char const c : name) {
+        char const lower = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+        if ((lower >= 'a' && lower <= 'z') || (lower >= '0' && lower <= '9')) {
+            out += lower;
+        }
+    }
+    return out;
+}
+
+NewFile::NewFile(std::string const& path, std::string who)
+    : who_(std::move(who)), file_(std::fopen(path.c_str(), "wbx")) {
+    if (file_ == nullptr) {
+        fail(who_, last_error());
+    }
+}
+
+void NewFile::append(std::string_view bytes) {
+    if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) {
+        fail(who_, last_error());
+    }
+}
+
+void NewFile::close() {
+    if (std::fclose(file_.release()) != 0) {
+        fail(who_, last_error());
+    }
+}
 
 OutputFolder::OutputFolder(std::string const& folder, Existing existing, std::vector<std::string> old_files)
     : old_files_(std::move(old_files)), adds_(existing == Existing::add) {

@@ -233,42 +233,6 @@ void require_own_tables(GDALDataset& package, std::string const& path) {
                         foreign, path);
 }
 
-} // namespace
-
-std::string inside_archive(std::string const& path) {
-    std::error_code ignored;
-    std::string const ending = fs::path(path).extension().string();
-    if ((ending != ".zip" && ending != ".ZIP") || !fs::is_regular_file(path, ignored)) {
-        return path;
-    }
-    std::string inside = "/vsizip/{" + path + "}";
-    constexpr int deepest = 4;
-    for (int level = 0; level < deepest; ++level) {
-        CPLStringList const entries(VSIReadDir(inside.c_str()), TRUE);
-        VSIStatBufL status;
-        if (entries.size() != 1 || VSIStatL((inside + "/" + entries[0]).c_str(), &status) != 0) {
-            break;
-        }
-        inside += std::string("/") + entries[0];
-        if (VSI_ISDIR(status.st_mode) == 0) {
-            break;
-        }
-    }
-    return inside;
-}
-
-void forget_archive(std::string const& path, Driver const& driver) {
-    if (inside_archive(path) != path) {
-        driver.take();
-    }
-}
-
-void CloseDataset::operator()(GDALDataset* dataset) const {
-    GDALClose(dataset);
-}
-
-namespace {
-
 constexpr std::array<char const*, 2> databases{"PostgreSQL", nullptr};
 
 bool is_postgres(std::string const& path) {
@@ -352,7 +316,57 @@ Dataset open_recipe_file(std::string const& path, unsigned kinds) {
     return data;
 }
 
+// The file that GDAL reads beside a header of the same stem, such as NAME.sdat beside NAME.sgrd; "": none, or several.
+std::string data_beside(fs::path const& header) {
+    std::string found;
+    std::error_code ignored;
+    fs::path const folder = header.has_parent_path() ? header.parent_path() : fs::path(".");
+    for (fs::directory_entry const& entry : fs::directory_iterator(folder, ignored)) {
+        fs::path const& file = entry.path();
+        if (file.stem() == header.stem() && file.filename() != header.filename() && entry.is_regular_file(ignored) &&
+            GDALIdentifyDriver(file.c_str(), nullptr) != nullptr) {
+            if (!found.empty()) {
+                return "";
+            }
+            found = file.filename().string();
+        }
+    }
+    return found;
+}
+
 } // namespace
+
+std::string inside_archive(std::string const& path) {
+    std::error_code ignored;
+    std::string const ending = fs::path(path).extension().string();
+    if ((ending != ".zip" && ending != ".ZIP") || !fs::is_regular_file(path, ignored)) {
+        return path;
+    }
+    std::string inside = "/vsizip/{" + path + "}";
+    constexpr int deepest = 4;
+    for (int level = 0; level < deepest; ++level) {
+        CPLStringList const entries(VSIReadDir(inside.c_str()), TRUE);
+        VSIStatBufL status;
+        if (entries.size() != 1 || VSIStatL((inside + "/" + entries[0]).c_str(), &status) != 0) {
+            break;
+        }
+        inside += std::string("/") + entries[0];
+        if (VSI_ISDIR(status.st_mode) == 0) {
+            break;
+        }
+    }
+    return inside;
+}
+
+void forget_archive(std::string const& path, Driver const& driver) {
+    if (inside_archive(path) != path) {
+        driver.take();
+    }
+}
+
+void CloseDataset::operator()(GDALDataset* dataset) const {
+    GDALClose(dataset);
+}
 
 Dataset open_unchanged(Source const& source, unsigned kinds) {
     std::string const& path = source.path;
@@ -411,28 +425,6 @@ std::string file_of_part(std::string const& path) {
     std::error_code ignored;
     return fs::is_regular_file(file, ignored) ? file : "";
 }
-
-namespace {
-
-// The file that GDAL reads beside a header of the same stem, such as NAME.sdat beside NAME.sgrd; "": none, or several.
-std::string data_beside(fs::path const& header) {
-    std::string found;
-    std::error_code ignored;
-    fs::path const folder = header.has_parent_path() ? header.parent_path() : fs::path(".");
-    for (fs::directory_entry const& entry : fs::directory_iterator(folder, ignored)) {
-        fs::path const& file = entry.path();
-        if (file.stem() == header.stem() && file.filename() != header.filename() && entry.is_regular_file(ignored) &&
-            GDALIdentifyDriver(file.c_str(), nullptr) != nullptr) {
-            if (!found.empty()) {
-                return "";
-            }
-            found = file.filename().string();
-        }
-    }
-    return found;
-}
-
-} // namespace
 
 void refuse_folder(std::string const& path, std::string const& what) {
     std::error_code ignored;

@@ -17,6 +17,23 @@ void put_field(std::string& bytes, std::string_view words, std::size_t size) {
     bytes.append(size - std::min(size, words.size()), '\0');
 }
 
+LasAxis axis_of(double low, double high, double scale) {
+    LasAxis axis{scale, std::floor(0.5 * low + 0.5 * high)};
+    constexpr double most = 2147483000.0;
+    while (std::max(high - axis.offset, axis.offset - low) / axis.scale > most) {
+        axis.scale *= 10.0;
+    }
+    return axis;
+}
+
+double scale_for(double short_way) {
+    double steps = 1000.0; // per metre; a power of ten, so that the scale is the double nearest to one
+    while (steps * short_way < 1000.0 && steps < 1e15) {
+        steps *= 10.0;
+    }
+    return 1.0 / steps;
+}
+
 } // namespace
 
 void put_ply_header(std::string& bytes, std::string const& crs, std::uint64_t vertices,
@@ -40,27 +57,6 @@ void put_ply_vertex(std::string& bytes, Vec3 vertex) {
     put_number(bytes, vertex.y);
     put_number(bytes, vertex.z);
 }
-
-namespace {
-
-LasAxis axis_of(double low, double high, double scale) {
-    LasAxis axis{scale, std::floor(0.5 * low + 0.5 * high)};
-    constexpr double most = 2147483000.0;
-    while (std::max(high - axis.offset, axis.offset - low) / axis.scale > most) {
-        axis.scale *= 10.0;
-    }
-    return axis;
-}
-
-double scale_for(double short_way) {
-    double steps = 1000.0; // per metre; a power of ten, so that the scale is the double nearest to one
-    while (steps * short_way < 1000.0 && steps < 1e15) {
-        steps *= 10.0;
-    }
-    return 1.0 / steps;
-}
-
-} // namespace
 
 std::int32_t LasAxis::whole(double v) const {
     return static_cast<std::int32_t>(std::floor((v - offset) / scale + 0.5));

@@ -186,63 +186,6 @@ void read_records(LasCrs& crs, LasFile& file, std::uint64_t at, std::uint64_t en
     }
 }
 
-} // namespace
-
-CloudFormat cloud_format(std::string const& path) {
-    std::error_code ignored;
-    if (!fs::is_regular_file(path, ignored)) {
-        return CloudFormat::none;
-    }
-    std::array<char, 8> first{};
-    std::ifstream file(path, std::ios::binary);
-    file.read(first.data(), first.size());
-    std::string_view const bytes(first.data(), first.size());
-    std::string const ending = lower_extension(path);
-    if (bytes.starts_with("LASF")) {
-        return CloudFormat::las;
-    }
-    if (bytes == "ASTM-E57") {
-        return CloudFormat::e57;
-    }
-    return ending == ".las" || ending == ".laz" ? CloudFormat::las : CloudFormat::none;
-}
-
-bool is_point_cloud(std::string const& path) {
-    return cloud_format(path) != CloudFormat::none;
-}
-
-void refuse_e57(std::string const& path, std::string const& who) {
-    throw BadInput(fmt::format("{}: {} is E57, which is not read; convert it: pdal translate {} {}", who, path,
-                               for_shell(path), for_shell(fs::path(path).replace_extension(".las").string())));
-}
-
-LasHeader read_las_header(std::string const& path) {
-    LasFile file(path);
-    refuse_if<BadInput>(file.size() < least_header,
-                        "io.read_las: {} is {} bytes long, and the header of LAS alone has {}; {}", file.name(),
-                        file.size(), least_header, damaged);
-    std::string bytes = file.bytes(0, static_cast<std::size_t>(std::min<std::uint64_t>(file.size(), header_of_1_4)));
-    refuse_if<BadInput>(!bytes.starts_with("LASF"), "io.read_las: {} is not LAS: it does not begin with LASF",
-                        file.name());
-    std::uint64_t const size = las_number<std::uint16_t>(bytes.data() + 94);
-    bool const is_1_4 = bytes[24] == 1 && bytes[25] == 4;
-    std::size_t const least = is_1_4 ? header_of_1_4 : least_header;
-    refuse_if<BadInput>(size < least || bytes.size() < least,
-                        "io.read_las: the header of {} is {} bytes long, and that of its version has {}; {}",
-                        file.name(), std::min<std::uint64_t>(size, file.size()), least, damaged);
-    LasHeader header = las_fixed_part(bytes, file);
-    header.path = path;
-    require_points_inside(header, size, file.size());
-    read_records(header.crs, file, size, header.points_at, las_number<std::uint32_t>(bytes.data() + 100), false);
-    if (auto const long_ones = is_1_4 ? las_number<std::uint32_t>(bytes.data() + 243) : 0U; long_ones > 0) {
-        auto const at = las_number<std::uint64_t>(bytes.data() + 235);
-        read_records(header.crs, file, at, file.size(), long_ones, true);
-    }
-    return header;
-}
-
-namespace {
-
 /// A field of a TIFF with so many numbers; those that do not fit into it stand elsewhere.
 void put_tiff_field(std::string& bytes, std::uint16_t tag, std::uint16_t type, std::uint32_t count,
                     std::uint32_t value) {
@@ -336,21 +279,6 @@ bool has_text(std::string const& wkt) {
     return wkt.substr(0, wkt.find('\0')).find_first_not_of(" \t\r\n") != std::string::npos;
 }
 
-} // namespace
-
-OGRSpatialReference crs_of_las(LasHeader const& header) {
-    LasCrs const& crs = header.crs;
-    bool const has_keys = !crs.directory.empty();
-    if (has_text(crs.wkt) && (crs.is_wkt || !has_keys)) {
-        return crs_of_wkt(header);
-    }
-    bool const is_empty =
-        !has_keys || (is_directory_whole(crs.directory) && las_number<std::uint16_t>(crs.directory.data() + 6) == 0);
-    return is_empty ? OGRSpatialReference() : crs_of_keys(header);
-}
-
-namespace {
-
 class PlainRecords : public LasRecords {
 public:
     explicit PlainRecords(LasHeader const& header) : file_(header.path), header_(header), left_(header.count) {
@@ -385,6 +313,70 @@ private:
 };
 
 } // namespace
+
+CloudFormat cloud_format(std::string const& path) {
+    std::error_code ignored;
+    if (!fs::is_regular_file(path, ignored)) {
+        return CloudFormat::none;
+    }
+    std::array<char, 8> first{};
+    std::ifstream file(path, std::ios::binary);
+    file.read(first.data(), first.size());
+    std::string_view const bytes(first.data(), first.size());
+    std::string const ending = lower_extension(path);
+    if (bytes.starts_with("LASF")) {
+        return CloudFormat::las;
+    }
+    if (bytes == "ASTM-E57") {
+        return CloudFormat::e57;
+    }
+    return ending == ".las" || ending == ".laz" ? CloudFormat::las : CloudFormat::none;
+}
+
+bool is_point_cloud(std::string const& path) {
+    return cloud_format(path) != CloudFormat::none;
+}
+
+void refuse_e57(std::string const& path, std::string const& who) {
+    throw BadInput(fmt::format("{}: {} is E57, which is not read; convert it: pdal translate {} {}", who, path,
+                               for_shell(path), for_shell(fs::path(path).replace_extension(".las").string())));
+}
+
+LasHeader read_las_header(std::string const& path) {
+    LasFile file(path);
+    refuse_if<BadInput>(file.size() < least_header,
+                        "io.read_las: {} is {} bytes long, and the header of LAS alone has {}; {}", file.name(),
+                        file.size(), least_header, damaged);
+    std::string bytes = file.bytes(0, static_cast<std::size_t>(std::min<std::uint64_t>(file.size(), header_of_1_4)));
+    refuse_if<BadInput>(!bytes.starts_with("LASF"), "io.read_las: {} is not LAS: it does not begin with LASF",
+                        file.name());
+    std::uint64_t const size = las_number<std::uint16_t>(bytes.data() + 94);
+    bool const is_1_4 = bytes[24] == 1 && bytes[25] == 4;
+    std::size_t const least = is_1_4 ? header_of_1_4 : least_header;
+    refuse_if<BadInput>(size < least || bytes.size() < least,
+                        "io.read_las: the header of {} is {} bytes long, and that of its version has {}; {}",
+                        file.name(), std::min<std::uint64_t>(size, file.size()), least, damaged);
+    LasHeader header = las_fixed_part(bytes, file);
+    header.path = path;
+    require_points_inside(header, size, file.size());
+    read_records(header.crs, file, size, header.points_at, las_number<std::uint32_t>(bytes.data() + 100), false);
+    if (auto const long_ones = is_1_4 ? las_number<std::uint32_t>(bytes.data() + 243) : 0U; long_ones > 0) {
+        auto const at = las_number<std::uint64_t>(bytes.data() + 235);
+        read_records(header.crs, file, at, file.size(), long_ones, true);
+    }
+    return header;
+}
+
+OGRSpatialReference crs_of_las(LasHeader const& header) {
+    LasCrs const& crs = header.crs;
+    bool const has_keys = !crs.directory.empty();
+    if (has_text(crs.wkt) && (crs.is_wkt || !has_keys)) {
+        return crs_of_wkt(header);
+    }
+    bool const is_empty =
+        !has_keys || (is_directory_whole(crs.directory) && las_number<std::uint16_t>(crs.directory.data() + 6) == 0);
+    return is_empty ? OGRSpatialReference() : crs_of_keys(header);
+}
 
 std::unique_ptr<LasRecords> open_las(LasHeader const& header) {
     return header.is_compressed ? open_laz(header) : std::make_unique<PlainRecords>(header);

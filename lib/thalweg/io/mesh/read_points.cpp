@@ -580,15 +580,6 @@ void settle_duplicates(FeaturePoints& read, DuplicatePoints duplicates, std::str
     read.averaged = static_cast<std::int64_t>(places.size());
 }
 
-} // namespace
-
-bool is_text_of_points(std::string const& path) {
-    std::string const ending = lower_extension(path);
-    return ending == ".csv" || ending == ".txt" || ending == ".xyz";
-}
-
-namespace {
-
 /// Refuses options that do not apply to the file.
 void refuse_unfit(ReadPointsParams const& params, bool is_cloud, std::string const& name) {
     refuse_if<BadParameter>(!params.columns.value_or("").empty() && !is_text_of_points(params.path.path),
@@ -604,6 +595,11 @@ void refuse_unfit(ReadPointsParams const& params, bool is_cloud, std::string con
 }
 
 } // namespace
+
+bool is_text_of_points(std::string const& path) {
+    std::string const ending = lower_extension(path);
+    return ending == ".csv" || ending == ".txt" || ending == ".xyz";
+}
 
 FeaturePoints read_points(ReadPointsParams const& params, Run const& run) {
     auto const name = std::filesystem::path(params.path.path).filename().string();

@@ -67,6 +67,99 @@ double number_in(std::string_view text) {
     return error == std::errc{} && end == text.data() + text.size() ? value : nan;
 }
 
+// In the order of AttributeTable::Type.
+constexpr std::array<OGRFieldType, 7> attribute_types{OFTInteger, OFTInteger64, OFTReal,    OFTString,
+                                                      OFTDate,    OFTTime,      OFTDateTime};
+
+bool is_of_schema(std::string const& name) {
+    return name == "z_unit" || std::ranges::any_of(table_of(Schema::native).fields, [&](SchemaField const& field) {
+               return field.name == lower_case(name);
+           });
+}
+
+AttributeTable::Value attribute_value(OGRFeature const& feature, int field, AttributeTable::Type type) {
+    if (feature.IsFieldSetAndNotNull(field) == 0) {
+        return {};
+    }
+    if (type == AttributeTable::Type::integer || type == AttributeTable::Type::integer64) {
+        return static_cast<std::int64_t>(feature.GetFieldAsInteger64(field));
+    }
+    if (type == AttributeTable::Type::real) {
+        double const value = feature.GetFieldAsDouble(field);
+        return std::isfinite(value) ? AttributeTable::Value(value) : AttributeTable::Value();
+    }
+    return as_utf8(feature.GetFieldAsString(field));
+}
+
+using Kind = Column::Kind;
+
+struct RiverColumns {
+    RiverQuantity quantity;
+    Kind kind;              ///< real: only columns of numbers are meant
+    std::string_view names; ///< the first that a layer has counts; of sizes and classes all, compared in this order
+};
+
+constexpr std::array<RiverColumns, 8> river_columns{{
+    // What a minor channel carries, areas, discharge, orders: NHDPlus, HydroRIVERS, MERIT-Basins, TauDEM, EU-Hydro,
+    // GRASS.
+    {RiverQuantity::size, Kind::real, "divdasqkm upland_skm uparea dis_av_cms ds_area dscontarea totdasqkm"},
+    {RiverQuantity::size, Kind::real, "streamcalc streamorde streamorder ord_stra strahler strmorder"},
+    {RiverQuantity::size, Kind::real, "stream_ord strord horton"},
+    {RiverQuantity::river_class, Kind::real, "streamleve streamlevel ord_clas ord_flow hack"},
+    {RiverQuantity::divergence, Kind::real, "divergence"}, // NHDPlus
+    {RiverQuantity::calculated_order, Kind::real, "streamcalc"},
+    {RiverQuantity::order, Kind::real, "streamorde streamorder"},
+    {RiverQuantity::name, Kind::text, "name gnis_name nametxtint river_name rivername riv_name"},
+}};
+
+using Parts = std::vector<std::vector<Vec3>>;
+
+void add_parts(OGRGeometry const& shape, std::int64_t feature, Parts& parts, OtherShapes& others) {
+    auto const flat = wkbFlatten(shape.getGeometryType());
+    if (OGR_GT_IsSubClassOf(flat, wkbGeometryCollection) != 0) {
+        for (auto const* const part : *shape.toGeometryCollection()) {
+            add_parts(*part, feature, parts, others);
+        }
+    } else if (flat != wkbLineString) {
+        others.add(shape, feature);
+    } else if (shape.IsEmpty() == 0) {
+        OGRLineString const& drawn = *shape.toLineString();
+        std::vector<Vec3>& line = parts.emplace_back();
+        for (int i = 0; i < drawn.getNumPoints(); ++i) {
+            line.push_back({drawn.getX(i), drawn.getY(i), drawn.Is3D() != 0 ? drawn.getZ(i) : nan});
+        }
+    }
+}
+
+// Joins parts that are one line when each begins where the last ends. They stay where there is no such order, or
+// several.
+void join(Parts& parts) {
+    using Place = std::pair<double, double>;
+    auto const begin_of = [](std::vector<Vec3> const& part) { return Place{part.front().x, part.front().y}; };
+    auto const end_of = [](std::vector<Vec3> const& part) { return Place{part.back().x, part.back().y}; };
+    std::map<Place, std::size_t> begins;
+    std::map<Place, std::size_t> ends;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        bool const placed = is_finite(in_plan(parts[i].front())) && is_finite(in_plan(parts[i].back()));
+        if (!placed || !begins.emplace(begin_of(parts[i]), i).second || !ends.emplace(end_of(parts[i]), i).second) {
+            return;
+        }
+    }
+    auto const first = std::ranges::find_if(parts, [&](auto const& part) { return !ends.contains(begin_of(part)); });
+    if (first == parts.end()) {
+        return;
+    }
+    std::vector<Vec3> line = *first;
+    std::size_t joined = 1;
+    for (auto next = begins.find(end_of(line)); next != begins.end(); next = begins.find(end_of(line))) {
+        line.insert(line.end(), parts[next->second].begin() + 1, parts[next->second].end());
+        ++joined;
+    }
+    if (joined == parts.size()) {
+        parts = {std::move(line)};
+    }
+}
+
 } // namespace
 
 FileColumn::FileColumn(OGRLayer& layer, std::vector<std::string> const& names, bool or_feature_id) {
@@ -158,34 +251,6 @@ std::optional<std::int64_t> whole_in(double value) {
 
 // The columns of a user's layer.
 
-namespace {
-
-// In the order of AttributeTable::Type.
-constexpr std::array<OGRFieldType, 7> attribute_types{OFTInteger, OFTInteger64, OFTReal,    OFTString,
-                                                      OFTDate,    OFTTime,      OFTDateTime};
-
-bool is_of_schema(std::string const& name) {
-    return name == "z_unit" || std::ranges::any_of(table_of(Schema::native).fields, [&](SchemaField const& field) {
-               return field.name == lower_case(name);
-           });
-}
-
-AttributeTable::Value attribute_value(OGRFeature const& feature, int field, AttributeTable::Type type) {
-    if (feature.IsFieldSetAndNotNull(field) == 0) {
-        return {};
-    }
-    if (type == AttributeTable::Type::integer || type == AttributeTable::Type::integer64) {
-        return static_cast<std::int64_t>(feature.GetFieldAsInteger64(field));
-    }
-    if (type == AttributeTable::Type::real) {
-        double const value = feature.GetFieldAsDouble(field);
-        return std::isfinite(value) ? AttributeTable::Value(value) : AttributeTable::Value();
-    }
-    return as_utf8(feature.GetFieldAsString(field));
-}
-
-} // namespace
-
 std::vector<Schema> recognised(OGRLayer& layer) {
     std::vector<Schema> found;
     for (SchemaTable const& table : all_schemas()) {
@@ -243,31 +308,6 @@ std::vector<Finding> AttributeReader::findings() const {
 }
 
 // What the columns of others' river files say.
-
-namespace {
-
-using Kind = Column::Kind;
-
-struct RiverColumns {
-    RiverQuantity quantity;
-    Kind kind;              ///< real: only columns of numbers are meant
-    std::string_view names; ///< the first that a layer has counts; of sizes and classes all, compared in this order
-};
-
-constexpr std::array<RiverColumns, 8> river_columns{{
-    // What a minor channel carries, areas, discharge, orders: NHDPlus, HydroRIVERS, MERIT-Basins, TauDEM, EU-Hydro,
-    // GRASS.
-    {RiverQuantity::size, Kind::real, "divdasqkm upland_skm uparea dis_av_cms ds_area dscontarea totdasqkm"},
-    {RiverQuantity::size, Kind::real, "streamcalc streamorde streamorder ord_stra strahler strmorder"},
-    {RiverQuantity::size, Kind::real, "stream_ord strord horton"},
-    {RiverQuantity::river_class, Kind::real, "streamleve streamlevel ord_clas ord_flow hack"},
-    {RiverQuantity::divergence, Kind::real, "divergence"}, // NHDPlus
-    {RiverQuantity::calculated_order, Kind::real, "streamcalc"},
-    {RiverQuantity::order, Kind::real, "streamorde streamorder"},
-    {RiverQuantity::name, Kind::text, "name gnis_name nametxtint river_name rivername riv_name"},
-}};
-
-} // namespace
 
 std::vector<DataSet const*> data_sets_of(OGRLayer& layer) {
     std::vector<DataSet const*> found;
@@ -373,58 +413,6 @@ std::vector<Finding> OtherShapes::findings() const {
     }
     return findings;
 }
-
-namespace {
-
-using Parts = std::vector<std::vector<Vec3>>;
-
-void add_parts(OGRGeometry const& shape, std::int64_t feature, Parts& parts, OtherShapes& others) {
-    auto const flat = wkbFlatten(shape.getGeometryType());
-    if (OGR_GT_IsSubClassOf(flat, wkbGeometryCollection) != 0) {
-        for (auto const* const part : *shape.toGeometryCollection()) {
-            add_parts(*part, feature, parts, others);
-        }
-    } else if (flat != wkbLineString) {
-        others.add(shape, feature);
-    } else if (shape.IsEmpty() == 0) {
-        OGRLineString const& drawn = *shape.toLineString();
-        std::vector<Vec3>& line = parts.emplace_back();
-        for (int i = 0; i < drawn.getNumPoints(); ++i) {
-            line.push_back({drawn.getX(i), drawn.getY(i), drawn.Is3D() != 0 ? drawn.getZ(i) : nan});
-        }
-    }
-}
-
-// Joins parts that are one line when each begins where the last ends. They stay where there is no such order, or
-// several.
-void join(Parts& parts) {
-    using Place = std::pair<double, double>;
-    auto const begin_of = [](std::vector<Vec3> const& part) { return Place{part.front().x, part.front().y}; };
-    auto const end_of = [](std::vector<Vec3> const& part) { return Place{part.back().x, part.back().y}; };
-    std::map<Place, std::size_t> begins;
-    std::map<Place, std::size_t> ends;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        bool const placed = is_finite(in_plan(parts[i].front())) && is_finite(in_plan(parts[i].back()));
-        if (!placed || !begins.emplace(begin_of(parts[i]), i).second || !ends.emplace(end_of(parts[i]), i).second) {
-            return;
-        }
-    }
-    auto const first = std::ranges::find_if(parts, [&](auto const& part) { return !ends.contains(begin_of(part)); });
-    if (first == parts.end()) {
-        return;
-    }
-    std::vector<Vec3> line = *first;
-    std::size_t joined = 1;
-    for (auto next = begins.find(end_of(line)); next != begins.end(); next = begins.find(end_of(line))) {
-        line.insert(line.end(), parts[next->second].begin() + 1, parts[next->second].end());
-        ++joined;
-    }
-    if (joined == parts.size()) {
-        parts = {std::move(line)};
-    }
-}
-
-} // namespace
 
 std::vector<std::vector<Vec3>> parts_of(OGRGeometry const& shape, std::int64_t feature, OtherShapes& others) {
     Parts parts;

@@ -121,46 +121,6 @@ std::vector<std::string> short_user_names(std::vector<std::string> const& names,
     return result;
 }
 
-} // namespace
-
-void add_user_columns(Table& table, AttributeTable const& attributes,
-                      std::function<std::int64_t(std::size_t row)> const& record, bool short_names, Schema schema) {
-    std::vector<std::string> taken;
-    for (Column const& column : table.columns) {
-        taken.push_back(column.name);
-    }
-    std::vector<std::string> names = user_names(attributes, taken, schema);
-    if (short_names) {
-        names = short_user_names(names, taken);
-    }
-    for (std::size_t c = 0; c < names.size(); ++c) {
-        Column column;
-        column.name = names[c];
-        column.is_users = true;
-        column.kind = static_cast<Kind>(attributes.columns[c].type); // both enumerations have one order
-        if (short_names && (column.kind == Kind::time || column.kind == Kind::datetime)) {
-            column.kind = Kind::text; // dBase has dates alone
-        }
-        column.decimals = short_names && column.kind == Kind::real ? user_decimals(attributes, c) : 0;
-        column.at = [&attributes, record, c, short_names](std::size_t row) -> Value {
-            std::int64_t const r = record(row);
-            if (r <= 0 || r > static_cast<std::int64_t>(attributes.rows.size())) {
-                return {};
-            }
-            Value value = attributes.rows[r - 1][c];
-            if (auto* const text = std::get_if<std::string>(&value); text != nullptr && short_names) {
-                *text = cut_to(*text, dbf_text);
-            }
-            return value;
-        };
-        table.columns.push_back(std::move(column));
-    }
-}
-
-// Arcs in any schema.
-
-namespace {
-
 /// The divergences of a forest. A minor branch begins in a node of its own, without inflow, at the place of the node
 /// that its main branch leaves.
 class Divided {
@@ -623,64 +583,6 @@ void require_whole(NetworkTables const& tables, std::string const& what) {
     }
 }
 
-} // namespace
-
-std::vector<Table> network_layers(NetworkTables const& tables, Schema schema, bool short_names,
-                                  std::string const& what) {
-    require_whole(tables, what);
-    StreamNetwork const& plan = tables.network.planform;
-    SchemaTable const& words = table_of(schema);
-    auto const most = static_cast<std::size_t>(words.most_upstream);
-    for (NodeId n = 0; n < plan.node_count(); ++n) {
-        refuse_if<BadInput>(most > 0 && plan.out(n) != no_arc && plan.in(n).size() > most,
-                            "{}: {} rivers meet at ({}, {}), but {} names no more than {} upstream of one: split "
-                            "confluences (--max-upstream {})",
-                            what, plan.in(n).size(), plan.node(n).at.x, plan.node(n).at.y, words.name, most, most);
-    }
-    std::vector<Table> layers{arcs_table(tables, words, short_names)};
-    if (schema == Schema::native) {
-        layers.push_back(nodes_table(tables));
-    }
-    return layers;
-}
-
-// The other tables of the native schema.
-
-Table nodes_table(NetworkTables const& tables) {
-    auto const& plan = tables.network.planform;
-    NetworkOrders const& orders = tables.orders;
-    auto const z = [&z_m = tables.network.node_z, unit_m = metres_in(tables.unit)](NodeId n) {
-        return z_m[n] / unit_m;
-    };
-    bool const heights = tables.heights;
-    Table table{"nodes", heights ? Table::Shape::point : Table::Shape::plan_point, plan.node_count(), {}, {}};
-    table.shape_at = [z, &plan](std::size_t row) {
-        Vec2 const p = plan.node(row).at;
-        return std::vector<Vec3>{{p.x, p.y, z(row)}};
-    };
-    table.columns = {
-        integer("node_id", [](auto row) { return row + 1; }),
-        text("kind",
-             [&plan, &sinks = tables.sinks](auto row) {
-                 bool const is_sink = std::binary_search(sinks.begin(), sinks.end(), row);
-                 return name_of(is_sink ? NodeKind::sink : kind_of(plan, row));
-             }),
-        integer("deg_in", [&plan](auto row) { return plan.in(row).size(); }),
-        integer("deg_out", [&plan](auto row) { return plan.out(row) == no_arc ? 0 : 1; }),
-        integer("basin_id", [&orders](auto row) { return orders.node_basin[row]; }),
-        integer("strahler", [&orders](auto row) { return orders.node_strahler[row]; }),
-        {"z", Kind::real, length_decimals, [z, heights](std::size_t row) { return heights ? Value(z(row)) : Value(); },
-         false, !heights},
-        real("area", area_decimals, [&area = tables.node_area_m2](auto row) { return area[row]; }),
-        real("dist_out", length_decimals, [&orders](auto row) { return orders.node_dist_out_m[row]; }),
-    };
-    add_unit(table, tables.unit);
-    table.style = node_style();
-    return table;
-}
-
-namespace {
-
 Table ridges_table(RidgeLines const& ridges, HeightUnit unit, std::string const& what) {
     for (std::size_t i = 0; i < ridges.lines.size(); ++i) {
         RidgeLine const& ridge = ridges.lines[i];
@@ -756,6 +658,96 @@ Table run_table(std::map<std::string, std::string> const& rows) {
 }
 
 } // namespace
+
+void add_user_columns(Table& table, AttributeTable const& attributes,
+                      std::function<std::int64_t(std::size_t row)> const& record, bool short_names, Schema schema) {
+    std::vector<std::string> taken;
+    for (Column const& column : table.columns) {
+        taken.push_back(column.name);
+    }
+    std::vector<std::string> names = user_names(attributes, taken, schema);
+    if (short_names) {
+        names = short_user_names(names, taken);
+    }
+    for (std::size_t c = 0; c < names.size(); ++c) {
+        Column column;
+        column.name = names[c];
+        column.is_users = true;
+        column.kind = static_cast<Kind>(attributes.columns[c].type); // both enumerations have one order
+        if (short_names && (column.kind == Kind::time || column.kind == Kind::datetime)) {
+            column.kind = Kind::text; // dBase has dates alone
+        }
+        column.decimals = short_names && column.kind == Kind::real ? user_decimals(attributes, c) : 0;
+        column.at = [&attributes, record, c, short_names](std::size_t row) -> Value {
+            std::int64_t const r = record(row);
+            if (r <= 0 || r > static_cast<std::int64_t>(attributes.rows.size())) {
+                return {};
+            }
+            Value value = attributes.rows[r - 1][c];
+            if (auto* const text = std::get_if<std::string>(&value); text != nullptr && short_names) {
+                *text = cut_to(*text, dbf_text);
+            }
+            return value;
+        };
+        table.columns.push_back(std::move(column));
+    }
+}
+
+// Arcs in any schema.
+
+std::vector<Table> network_layers(NetworkTables const& tables, Schema schema, bool short_names,
+                                  std::string const& what) {
+    require_whole(tables, what);
+    StreamNetwork const& plan = tables.network.planform;
+    SchemaTable const& words = table_of(schema);
+    auto const most = static_cast<std::size_t>(words.most_upstream);
+    for (NodeId n = 0; n < plan.node_count(); ++n) {
+        refuse_if<BadInput>(most > 0 && plan.out(n) != no_arc && plan.in(n).size() > most,
+                            "{}: {} rivers meet at ({}, {}), but {} names no more than {} upstream of one: split "
+                            "confluences (--max-upstream {})",
+                            what, plan.in(n).size(), plan.node(n).at.x, plan.node(n).at.y, words.name, most, most);
+    }
+    std::vector<Table> layers{arcs_table(tables, words, short_names)};
+    if (schema == Schema::native) {
+        layers.push_back(nodes_table(tables));
+    }
+    return layers;
+}
+
+// The other tables of the native schema.
+
+Table nodes_table(NetworkTables const& tables) {
+    auto const& plan = tables.network.planform;
+    NetworkOrders const& orders = tables.orders;
+    auto const z = [&z_m = tables.network.node_z, unit_m = metres_in(tables.unit)](NodeId n) {
+        return z_m[n] / unit_m;
+    };
+    bool const heights = tables.heights;
+    Table table{"nodes", heights ? Table::Shape::point : Table::Shape::plan_point, plan.node_count(), {}, {}};
+    table.shape_at = [z, &plan](std::size_t row) {
+        Vec2 const p = plan.node(row).at;
+        return std::vector<Vec3>{{p.x, p.y, z(row)}};
+    };
+    table.columns = {
+        integer("node_id", [](auto row) { return row + 1; }),
+        text("kind",
+             [&plan, &sinks = tables.sinks](auto row) {
+                 bool const is_sink = std::binary_search(sinks.begin(), sinks.end(), row);
+                 return name_of(is_sink ? NodeKind::sink : kind_of(plan, row));
+             }),
+        integer("deg_in", [&plan](auto row) { return plan.in(row).size(); }),
+        integer("deg_out", [&plan](auto row) { return plan.out(row) == no_arc ? 0 : 1; }),
+        integer("basin_id", [&orders](auto row) { return orders.node_basin[row]; }),
+        integer("strahler", [&orders](auto row) { return orders.node_strahler[row]; }),
+        {"z", Kind::real, length_decimals, [z, heights](std::size_t row) { return heights ? Value(z(row)) : Value(); },
+         false, !heights},
+        real("area", area_decimals, [&area = tables.node_area_m2](auto row) { return area[row]; }),
+        real("dist_out", length_decimals, [&orders](auto row) { return orders.node_dist_out_m[row]; }),
+    };
+    add_unit(table, tables.unit);
+    table.style = node_style();
+    return table;
+}
 
 std::vector<Table> geopackage_tables(NetworkTables const& tables, std::string const& what) {
     std::vector<Table> layers = network_layers(tables, Schema::native, false, what);

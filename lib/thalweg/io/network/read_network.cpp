@@ -51,18 +51,6 @@ std::uint64_t bits(double v) {
     return std::bit_cast<std::uint64_t>(v + 0.0);
 }
 
-} // namespace
-
-void link_by_keys(NetworkFile& file, std::vector<std::int64_t> const& keys, std::vector<std::int64_t> const& ds_keys) {
-    auto const by_key = by_number(keys.size(), [&](std::size_t i) { return keys[i]; });
-    for (std::size_t i = 0; i < file.arcs.size(); ++i) {
-        FileArc const* const below = ds_keys[i] == 0 ? nullptr : find(file, by_key, ds_keys[i]);
-        file.arcs[i].ds_arc = below == nullptr ? -ds_keys[i] : below->id;
-    }
-}
-
-namespace {
-
 /// Makes an outlet of each arc whose ds_arc the file does not hold: an extract ends there. Its basins do not count
 /// then.
 void drop_links_out(NetworkFile& file, std::string const& what, Notes& notes) {
@@ -365,6 +353,14 @@ NetworkFile read(std::string const& path, Wish const& wish, Run const& run) {
 }
 
 } // namespace
+
+void link_by_keys(NetworkFile& file, std::vector<std::int64_t> const& keys, std::vector<std::int64_t> const& ds_keys) {
+    auto const by_key = by_number(keys.size(), [&](std::size_t i) { return keys[i]; });
+    for (std::size_t i = 0; i < file.arcs.size(); ++i) {
+        FileArc const* const below = ds_keys[i] == 0 ? nullptr : find(file, by_key, ds_keys[i]);
+        file.arcs[i].ds_arc = below == nullptr ? -ds_keys[i] : below->id;
+    }
+}
 
 NetworkFile read_network(std::string const& path, ReadNetworkParams const& params, Run const& run) {
     return read(path, wish_of(params), run);

@@ -18,29 +18,6 @@ namespace {
 
 constexpr std::size_t kept_of_a_kind = 1000;
 
-} // namespace
-
-void Notes::add(std::string const& source, Finding finding) {
-    refuse_if<BadInput>(strict_, "{}: {}", source, finding.text);
-    if (++count_[finding.kind] <= kept_of_a_kind) {
-        findings_.push_back(std::move(finding));
-    }
-}
-
-std::vector<Finding> Notes::take() {
-    for (auto const& [kind, count] : count_) {
-        if (count > kept_of_a_kind) {
-            std::size_t const more = count - kept_of_a_kind;
-            findings_.push_back(
-                {kind, 0, nowhere, static_cast<double>(more), fmt::format("{}: {} more", kind.name(), more)});
-        }
-    }
-    count_.clear();
-    return std::exchange(findings_, {});
-}
-
-namespace {
-
 using Q = Quantity;
 using FileArc = NetworkFile::FileArc;
 using NodeColumns = NetworkFile::NodeColumns;
@@ -79,61 +56,6 @@ constexpr std::array<std::pair<char const*, double NodeColumns::*>, 7> node_colu
      {"z", &NodeColumns::z_m},
      {"dist_out", &NodeColumns::dist_out_m},
      {"area", &NodeColumns::area_m2}}};
-
-} // namespace
-
-void read_sources(NetworkFile& file, Layer const& sources, Driver const& driver, Run const& run) {
-    FileColumn const arc_id(*sources.layer, {"arc_id"});
-    FileColumn const feature_id(*sources.layer, {"feature"});
-    FileColumn const from(*sources.layer, {"from_m"});
-    FileColumn const to(*sources.layer, {"to_m"});
-    std::map<std::int64_t, std::size_t> arc_of;
-    for (std::size_t a = 0; a < file.arcs.size(); ++a) {
-        arc_of.try_emplace(file.arcs[a].id, a);
-    }
-    sources.each(driver, run, [&](OGRFeature const& row) {
-        auto const arc = arc_of.find(arc_id.whole(row).value_or(0));
-        Stretch const stretch{feature_id.whole(row).value_or(0), from.real(row), to.real(row)};
-        if (arc != arc_of.end() && stretch.from_m >= 0.0 && stretch.to_m > stretch.from_m) {
-            file.arcs[arc->second].sources.push_back(stretch);
-        }
-    });
-}
-
-void read_nodes(NetworkFile& file, Layer const& nodes, std::string const& node_id, Driver const& driver, Notes& notes,
-                Run const& run) {
-    FileColumn const id(*nodes.layer, {node_id});
-    refuse_if<BadInput>(!id.is_there(), "{}: no field {} (there are {})", nodes.what, node_id,
-                        listed(field_names(*nodes.layer)));
-    id.require_numbers(nodes.what, notes);
-    FileColumn const kind(*nodes.layer, {"kind"});
-    std::vector<std::pair<FileColumn, double NodeColumns::*>> columns;
-    for (auto const& [name, member] : node_columns) {
-        columns.emplace_back(FileColumn(*nodes.layer, {name}), member);
-    }
-    std::int64_t number = 0;
-    nodes.each(driver, run, [&](OGRFeature const& feature) {
-        ++number;
-        auto const* const shape = feature.GetGeometryRef();
-        refuse_if<BadInput>(shape == nullptr || wkbFlatten(shape->getGeometryType()) != wkbPoint || shape->IsEmpty(),
-                            "{}: feature {} is not a point", nodes.what, number);
-        OGRPoint const& p = *shape->toPoint();
-        bool const is_flat = p.Is3D() == FALSE;
-        if (is_flat && file.says.heights) {
-            notes.add(nodes.what, "no_heights", 0, 1.0, fmt::format("feature {} has no heights (Z)", number));
-        }
-        NetworkFile::FileNode& node = file.nodes.emplace_back();
-        node.id = FeatureNumbers{feature, number, nodes.what, notes}.whole(id, 0, false);
-        node.at = {p.getX(), p.getY(), is_flat ? nan : p.getZ()};
-        node.columns.kind = kind.text(feature);
-        for (auto const& [column, member] : columns) {
-            node.columns.*member = column.real(feature);
-        }
-    });
-    file.says.nodes = true;
-}
-
-namespace {
 
 class ArcReader {
 public:
@@ -430,6 +352,76 @@ private:
 };
 
 } // namespace
+
+void Notes::add(std::string const& source, Finding finding) {
+    refuse_if<BadInput>(strict_, "{}: {}", source, finding.text);
+    if (++count_[finding.kind] <= kept_of_a_kind) {
+        findings_.push_back(std::move(finding));
+    }
+}
+
+std::vector<Finding> Notes::take() {
+    for (auto const& [kind, count] : count_) {
+        if (count > kept_of_a_kind) {
+            std::size_t const more = count - kept_of_a_kind;
+            findings_.push_back(
+                {kind, 0, nowhere, static_cast<double>(more), fmt::format("{}: {} more", kind.name(), more)});
+        }
+    }
+    count_.clear();
+    return std::exchange(findings_, {});
+}
+
+void read_sources(NetworkFile& file, Layer const& sources, Driver const& driver, Run const& run) {
+    FileColumn const arc_id(*sources.layer, {"arc_id"});
+    FileColumn const feature_id(*sources.layer, {"feature"});
+    FileColumn const from(*sources.layer, {"from_m"});
+    FileColumn const to(*sources.layer, {"to_m"});
+    std::map<std::int64_t, std::size_t> arc_of;
+    for (std::size_t a = 0; a < file.arcs.size(); ++a) {
+        arc_of.try_emplace(file.arcs[a].id, a);
+    }
+    sources.each(driver, run, [&](OGRFeature const& row) {
+        auto const arc = arc_of.find(arc_id.whole(row).value_or(0));
+        Stretch const stretch{feature_id.whole(row).value_or(0), from.real(row), to.real(row)};
+        if (arc != arc_of.end() && stretch.from_m >= 0.0 && stretch.to_m > stretch.from_m) {
+            file.arcs[arc->second].sources.push_back(stretch);
+        }
+    });
+}
+
+void read_nodes(NetworkFile& file, Layer const& nodes, std::string const& node_id, Driver const& driver, Notes& notes,
+                Run const& run) {
+    FileColumn const id(*nodes.layer, {node_id});
+    refuse_if<BadInput>(!id.is_there(), "{}: no field {} (there are {})", nodes.what, node_id,
+                        listed(field_names(*nodes.layer)));
+    id.require_numbers(nodes.what, notes);
+    FileColumn const kind(*nodes.layer, {"kind"});
+    std::vector<std::pair<FileColumn, double NodeColumns::*>> columns;
+    for (auto const& [name, member] : node_columns) {
+        columns.emplace_back(FileColumn(*nodes.layer, {name}), member);
+    }
+    std::int64_t number = 0;
+    nodes.each(driver, run, [&](OGRFeature const& feature) {
+        ++number;
+        auto const* const shape = feature.GetGeometryRef();
+        refuse_if<BadInput>(shape == nullptr || wkbFlatten(shape->getGeometryType()) != wkbPoint || shape->IsEmpty(),
+                            "{}: feature {} is not a point", nodes.what, number);
+        OGRPoint const& p = *shape->toPoint();
+        bool const is_flat = p.Is3D() == FALSE;
+        if (is_flat && file.says.heights) {
+            notes.add(nodes.what, "no_heights", 0, 1.0, fmt::format("feature {} has no heights (Z)", number));
+        }
+        NetworkFile::FileNode& node = file.nodes.emplace_back();
+        node.id = FeatureNumbers{feature, number, nodes.what, notes}.whole(id, 0, false);
+        node.at = {p.getX(), p.getY(), is_flat ? nan : p.getZ()};
+        node.columns.kind = kind.text(feature);
+        for (auto const& [column, member] : columns) {
+            node.columns.*member = column.real(feature);
+        }
+    });
+    file.says.nodes = true;
+}
 
 void read_arcs(NetworkFile& file, Layer const& arcs, std::optional<Schema> schema, Wish const& wish,
                Driver const& driver, Notes& notes, Run const& run) {

@@ -66,6 +66,55 @@ char const* why_not(fs::path const& folder) {
                : "it holds neither network.gpkg, nor one other GeoPackage, nor shapefiles; name a file in it";
 }
 
+NetworkPlace pair_of(fs::path const& path, bool whole) {
+    std::error_code ignored;
+    auto const sibling = [&](std::string_view layer, std::string_view other) {
+        std::string const stem = path.stem().string();
+        std::string const name = stem.substr(0, stem.size() - layer.size()) + std::string(other);
+        return (path.parent_path() / (name + path.extension().string())).string();
+    };
+    if (ends_as(path, "arcs")) {
+        std::string const nodes = sibling("arcs", "nodes");
+        return {path.string(), whole || fs::exists(nodes, ignored) ? nodes : ""};
+    }
+    if (ends_as(path, "nodes")) {
+        return {sibling("nodes", "arcs"), path.string()};
+    }
+    refuse_if<BadInput>(whole, "io.read_network: {} is neither NAME_arcs.shp nor NAME_nodes.shp", path.string());
+    return {path.string(), ""};
+}
+
+Layer layer_of(NetworkSource const& source, OGRLayer& layer, std::string const& name) {
+    return {&layer, fmt::format("{}, layer {}", source.what, name)};
+}
+
+[[noreturn]] void refuse_layer(NetworkSource const& source, std::string const& wanted) {
+    throw BadInput(fmt::format("{} has no layer {} (there are {})", source.what, wanted,
+                               listed(layer_names(layers_of(*source.dataset)))));
+}
+
+// "native: arc_id, ...; taudem: ...", for a message: what recognised() looks for.
+std::string what_tells() {
+    std::vector<std::string> schemas;
+    for (SchemaTable const& table : all_schemas()) {
+        std::vector<std::string> fields;
+        for (std::string_view const names : table.told_by) {
+            fields.push_back(fmt::format("{}", fmt::join(words_of(names), " or ")));
+        }
+        schemas.push_back(fmt::format("{}: {}", table.name, listed(fields)));
+    }
+    return fmt::format("{}", fmt::join(schemas, "; "));
+}
+
+/// Several layers as one, which lives as long as the layer is used.
+Layer layer_of(NetworkSource const& source, std::vector<OGRLayer*> layers) {
+    ChosenLayer chosen = as_one(layers, source.what);
+    Layer layer = layer_of(source, *chosen.layer, chosen.name);
+    layer.holds = std::shared_ptr<GDALDataset>(std::move(chosen.holds));
+    layer.read_from = std::move(layers);
+    return layer;
+}
+
 } // namespace
 
 RiverSource find_rivers(std::string const& path) {
@@ -100,28 +149,6 @@ RiverSource find_rivers(std::string const& path) {
 }
 
 // Files of a network.
-
-namespace {
-
-NetworkPlace pair_of(fs::path const& path, bool whole) {
-    std::error_code ignored;
-    auto const sibling = [&](std::string_view layer, std::string_view other) {
-        std::string const stem = path.stem().string();
-        std::string const name = stem.substr(0, stem.size() - layer.size()) + std::string(other);
-        return (path.parent_path() / (name + path.extension().string())).string();
-    };
-    if (ends_as(path, "arcs")) {
-        std::string const nodes = sibling("arcs", "nodes");
-        return {path.string(), whole || fs::exists(nodes, ignored) ? nodes : ""};
-    }
-    if (ends_as(path, "nodes")) {
-        return {sibling("nodes", "arcs"), path.string()};
-    }
-    refuse_if<BadInput>(whole, "io.read_network: {} is neither NAME_arcs.shp nor NAME_nodes.shp", path.string());
-    return {path.string(), ""};
-}
-
-} // namespace
 
 NetworkPlace find_network(std::string const& path, bool whole) {
     std::error_code ignored;
@@ -160,32 +187,6 @@ NetworkSource open_network(std::string const& path, Driver const& driver) {
 
 // Layers of a network.
 
-namespace {
-
-Layer layer_of(NetworkSource const& source, OGRLayer& layer, std::string const& name) {
-    return {&layer, fmt::format("{}, layer {}", source.what, name)};
-}
-
-[[noreturn]] void refuse_layer(NetworkSource const& source, std::string const& wanted) {
-    throw BadInput(fmt::format("{} has no layer {} (there are {})", source.what, wanted,
-                               listed(layer_names(layers_of(*source.dataset)))));
-}
-
-// "native: arc_id, ...; taudem: ...", for a message: what recognised() looks for.
-std::string what_tells() {
-    std::vector<std::string> schemas;
-    for (SchemaTable const& table : all_schemas()) {
-        std::vector<std::string> fields;
-        for (std::string_view const names : table.told_by) {
-            fields.push_back(fmt::format("{}", fmt::join(words_of(names), " or ")));
-        }
-        schemas.push_back(fmt::format("{}: {}", table.name, listed(fields)));
-    }
-    return fmt::format("{}", fmt::join(schemas, "; "));
-}
-
-} // namespace
-
 void Layer::each(Driver const& driver, Run const& run, std::function<void(OGRFeature const&)> const& body) const {
     GIntBig const announced = layer->GetFeatureCount();
     GIntBig read = 0;
@@ -198,19 +199,6 @@ void Layer::each(Driver const& driver, Run const& run, std::function<void(OGRFea
     refuse_if<IoError>(announced >= 0 && read != announced, "{}: {} of {} features could be read: the file is damaged",
                        what, read, announced);
 }
-
-namespace {
-
-/// Several layers as one, which lives as long as the layer is used.
-Layer layer_of(NetworkSource const& source, std::vector<OGRLayer*> layers) {
-    ChosenLayer chosen = as_one(layers, source.what);
-    Layer layer = layer_of(source, *chosen.layer, chosen.name);
-    layer.holds = std::shared_ptr<GDALDataset>(std::move(chosen.holds));
-    layer.read_from = std::move(layers);
-    return layer;
-}
-
-} // namespace
 
 Layer choose_arcs(NetworkSource const& source, Wish const& wish) {
     GDALDataset& data = *source.dataset;

@@ -319,10 +319,6 @@ HeightsOfLines heights_of(std::vector<RiverLine> const& lines) {
     return heights;
 }
 
-} // namespace
-
-namespace {
-
 void require_halves(ReadRiversParams const& params) {
     refuse_if<BadParameter>(params.id_field.empty() != params.down_field.empty(),
                             "io.read_rivers: the field '{}' is named without its other half: links need the field of a "
@@ -333,10 +329,6 @@ void require_halves(ReadRiversParams const& params) {
                             "that from which water comes and that of the one to which it goes",
                             params.from_field.empty() ? params.to_field : params.from_field);
 }
-
-} // namespace
-
-namespace {
 
 /// The lakes of a file's other layers. Of OpenStreetMap one layer is read at a time.
 std::vector<Polygon> other_lakes(ReadRiversParams const& params, GDALDataset& data, std::vector<OGRLayer*> const& read,

@@ -47,15 +47,6 @@ bool is_line(OGRwkbGeometryType type) {
     return OGR_GT_IsSubClassOf(flat, wkbCurve) != 0 || OGR_GT_IsSubClassOf(flat, wkbMultiCurve) != 0;
 }
 
-} // namespace
-
-bool may_hold_lines(OGRLayer& layer) {
-    auto const type = wkbFlatten(layer.GetGeomType());
-    return type == wkbUnknown || type == wkbGeometryCollection || is_line(type);
-}
-
-namespace {
-
 enum class Holds : std::uint8_t { lines, other, nothing };
 
 // A layer of any shapes holds lines when one of its first features is one: exports of OpenStreetMap begin with nodes.
@@ -191,38 +182,6 @@ std::vector<OGRLayer*> named_layers(GDALDataset& data, std::string const& wanted
     return found;
 }
 
-} // namespace
-
-void require_lines(GDALDataset& data, std::string const& name, std::string const& who) {
-    line_layers(data, who + ": " + name);
-}
-
-std::vector<OGRLayer*> rivers_layers(GDALDataset& data, std::string const& wanted, std::string const& what) {
-    if (!wanted.empty()) {
-        return named_layers(data, wanted, what);
-    }
-    std::vector<OGRLayer*> lines = line_layers(data, what);
-    if (lines.size() > 1 && belong_together(data)) {
-        std::vector<OGRLayer*> rivers = lines;
-        std::erase_if(rivers, names_other_lines);
-        return rivers.empty() ? lines : rivers;
-    }
-    auto const rank = [](OGRLayer* layer) { return rank_of(layer->GetName()); };
-    OGRLayer* const best = *std::ranges::min_element(lines, {}, rank);
-    if (std::ranges::count(lines, rank(best), rank) > 1) {
-        throw BadInput(
-            fmt::format("{} has {} layers with lines ({}): name the one with the rivers, "
-                        "--set network.lines.layer=NAME (check and convert: --layer NAME), or several, separated by "
-                        "commas",
-                        what, lines.size(), listed(layer_names(lines))));
-    }
-    return {best};
-}
-
-// Several layers as one.
-
-namespace {
-
 constexpr char const* own_column = "layer";
 
 /// A column for each field of any of the layers; fields of one name but different types become text.
@@ -265,37 +224,6 @@ void copy_features(OGRLayer& into, OGRLayer& from, std::string const& what) {
     }
 }
 
-} // namespace
-
-ChosenLayer as_one(std::vector<OGRLayer*> const& layers, std::string const& what) {
-    ChosenLayer chosen{layers.front(), listed(layer_names(layers))};
-    if (layers.size() == 1) {
-        return chosen;
-    }
-    OGRSpatialReference const crs = crs_of_layer(layers.front()->GetSpatialRef(), "");
-    for (OGRLayer* const layer : layers) {
-        OGRSpatialReference const own = crs_of_layer(layer->GetSpatialRef(), "");
-        refuse_if<BadInput>(crs.IsEmpty() != own.IsEmpty() ||
-                                (own.IsEmpty() == 0 && own.IsSame(&crs) == 0 && name_of(own) != name_of(crs)),
-                            "{}: layers {} and {} have different coordinate systems, and one drawing has one: "
-                            "reproject one of them (ogr2ogr -t_srs)",
-                            what, layers.front()->GetName(), layer->GetName());
-    }
-    Dataset memory(GetGDALDriverManager()->GetDriverByName("Memory")->Create("", 0, 0, 0, GDT_Unknown, nullptr));
-    refuse_if<IoError>(memory == nullptr, "{}: no memory for {}", what, chosen.name);
-    chosen.layer = memory->CreateLayer(chosen.name.c_str(), layers.front()->GetSpatialRef(), wkbUnknown, nullptr);
-    add_fields(*chosen.layer, layers);
-    for (OGRLayer* const layer : layers) {
-        copy_features(*chosen.layer, *layer, what);
-    }
-    chosen.holds = std::move(memory);
-    return chosen;
-}
-
-// Layers that are not read.
-
-namespace {
-
 /// [m] Length of the lines of a layer, in a CRS in metres.
 double length_of(OGRLayer& layer, OGRSpatialReference const& own, std::string const& crs, std::string const& name) {
     IntoMetres const metres(own, crs, FilePlaces().box(), name);
@@ -325,6 +253,66 @@ double length_or_none(OGRLayer& layer, std::string const& crs, std::string const
 }
 
 } // namespace
+
+bool may_hold_lines(OGRLayer& layer) {
+    auto const type = wkbFlatten(layer.GetGeomType());
+    return type == wkbUnknown || type == wkbGeometryCollection || is_line(type);
+}
+
+void require_lines(GDALDataset& data, std::string const& name, std::string const& who) {
+    line_layers(data, who + ": " + name);
+}
+
+std::vector<OGRLayer*> rivers_layers(GDALDataset& data, std::string const& wanted, std::string const& what) {
+    if (!wanted.empty()) {
+        return named_layers(data, wanted, what);
+    }
+    std::vector<OGRLayer*> lines = line_layers(data, what);
+    if (lines.size() > 1 && belong_together(data)) {
+        std::vector<OGRLayer*> rivers = lines;
+        std::erase_if(rivers, names_other_lines);
+        return rivers.empty() ? lines : rivers;
+    }
+    auto const rank = [](OGRLayer* layer) { return rank_of(layer->GetName()); };
+    OGRLayer* const best = *std::ranges::min_element(lines, {}, rank);
+    if (std::ranges::count(lines, rank(best), rank) > 1) {
+        throw BadInput(
+            fmt::format("{} has {} layers with lines ({}): name the one with the rivers, "
+                        "--set network.lines.layer=NAME (check and convert: --layer NAME), or several, separated by "
+                        "commas",
+                        what, lines.size(), listed(layer_names(lines))));
+    }
+    return {best};
+}
+
+// Several layers as one.
+
+ChosenLayer as_one(std::vector<OGRLayer*> const& layers, std::string const& what) {
+    ChosenLayer chosen{layers.front(), listed(layer_names(layers))};
+    if (layers.size() == 1) {
+        return chosen;
+    }
+    OGRSpatialReference const crs = crs_of_layer(layers.front()->GetSpatialRef(), "");
+    for (OGRLayer* const layer : layers) {
+        OGRSpatialReference const own = crs_of_layer(layer->GetSpatialRef(), "");
+        refuse_if<BadInput>(crs.IsEmpty() != own.IsEmpty() ||
+                                (own.IsEmpty() == 0 && own.IsSame(&crs) == 0 && name_of(own) != name_of(crs)),
+                            "{}: layers {} and {} have different coordinate systems, and one drawing has one: "
+                            "reproject one of them (ogr2ogr -t_srs)",
+                            what, layers.front()->GetName(), layer->GetName());
+    }
+    Dataset memory(GetGDALDriverManager()->GetDriverByName("Memory")->Create("", 0, 0, 0, GDT_Unknown, nullptr));
+    refuse_if<IoError>(memory == nullptr, "{}: no memory for {}", what, chosen.name);
+    chosen.layer = memory->CreateLayer(chosen.name.c_str(), layers.front()->GetSpatialRef(), wkbUnknown, nullptr);
+    add_fields(*chosen.layer, layers);
+    for (OGRLayer* const layer : layers) {
+        copy_features(*chosen.layer, *layer, what);
+    }
+    chosen.holds = std::move(memory);
+    return chosen;
+}
+
+// Layers that are not read.
 
 std::vector<Finding> layers_not_read(GDALDataset& data, std::vector<OGRLayer*> const& read, std::string const& crs,
                                      std::string const& source_crs, std::string const& name) {

@@ -203,6 +203,106 @@ Mask mask_of(StreamNetwork const& plan, Grid const& grid) {
     return cells;
 }
 
+/// What is made, where: names are plain, so that they stand in SQL as they are.
+struct Names {
+    std::string schema; ///< of the database; "" for its default
+    std::string name;
+
+    std::string full(std::string const& relation) const { return schema.empty() ? relation : schema + "." + relation; }
+    std::string edges() const { return name + "_edges"; }
+};
+
+bool is_plain_word(std::string_view word) {
+    auto const letter = [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; };
+    constexpr std::size_t most = 50; // PostgreSQL cuts names after 63 bytes, ours get endings
+    return !word.empty() && word.size() <= most && letter(word.front()) &&
+           std::ranges::all_of(word, [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
+}
+
+Names names_of(std::string const& text) {
+    std::size_t const dot = text.find('.');
+    Names names{dot == std::string::npos ? "" : text.substr(0, dot),
+                dot == std::string::npos ? text : text.substr(dot + 1)};
+    refuse_if<BadParameter>((dot != std::string::npos && !is_plain_word(names.schema)) || !is_plain_word(names.name),
+                            "io.write_postgis: '{}' is not a valid table name: write NAME or SCHEMA.NAME in lower-case "
+                            "letters, digits and _, at most 50",
+                            text);
+    return names;
+}
+
+Dataset open_database(std::string const& connection, std::string const& what, Driver const& driver) {
+    std::array<char const*, 2> constexpr drivers{"PostgreSQL", nullptr};
+    std::array<char const*, 2> constexpr options{"LIST_ALL_TABLES=NO", nullptr};
+    Dataset dataset(
+        GDALDataset::Open(connection.c_str(), GDAL_OF_VECTOR | GDAL_OF_UPDATE, drivers.data(), options.data()));
+    if (dataset == nullptr) {
+        std::string const reason = driver.take();
+        throw IoError(fmt::format("{} cannot be reached: {}", what, reason.empty() ? "no reason given" : reason));
+    }
+    return dataset;
+}
+
+/// A database in a transaction, which is rolled back unless commit() is called.
+class Database {
+public:
+    Database(std::string const& connection, std::string const& what, std::string const& crs, std::string const& schema)
+        : dataset_(open_database(connection, what, driver_)),
+          reference_(crs.empty() ? OGRSpatialReference() : read_reference(crs)),
+          target_{LayerFormat::postgresql, what, driver_, *dataset_, crs.empty() ? nullptr : &reference_, schema} {
+        target_.require(dataset_->StartTransaction() == OGRERR_NONE);
+    }
+    ~Database() {
+        if (open_) {
+            dataset_->RollbackTransaction();
+        }
+    }
+    Database(Database const&) = delete;
+    Database& operator=(Database const&) = delete;
+
+    /// The first field of the first row that a query gives, "" for none.
+    std::string ask(std::string const& sql) {
+        OGRLayer* const result = dataset_->ExecuteSQL(sql.c_str(), nullptr, nullptr);
+        driver_.check(target_.what);
+        std::string answer;
+        if (result != nullptr) {
+            if (OGRFeatureUniquePtr const row{result->GetNextFeature()}; row != nullptr && row->GetFieldCount() > 0) {
+                answer = row->GetFieldAsString(0);
+            }
+            dataset_->ReleaseResultSet(result);
+        }
+        return answer;
+    }
+    void write(Table const& table, Run const& run) {
+        write_layer(target_, table, run);
+        // The driver makes a table when its first row comes, or it is asked for what it holds.
+        if (OGRLayer* const layer = dataset_->GetLayer(dataset_->GetLayerCount() - 1)) {
+            target_.require(layer->SyncToDisk() == OGRERR_NONE);
+        }
+    }
+    void commit() {
+        target_.require(dataset_->CommitTransaction() == OGRERR_NONE);
+        open_ = false;
+        driver_.check(target_.what);
+    }
+
+private:
+    Driver driver_;
+    Connection connection_;
+    Dataset dataset_;
+    OGRSpatialReference reference_;
+    LayerTarget target_;
+    bool open_ = true;
+};
+
+/// The view that pgRouting takes.
+std::string edges_view(Names const& names, std::string const& table, SchemaTable const& schema) {
+    auto const column = [&](Quantity quantity) { return lower_case(std::string(field_of(schema, quantity)->name)); };
+    return fmt::format("CREATE VIEW {} AS SELECT {}::bigint AS id, {}::bigint AS source, {}::bigint AS target, {} AS "
+                       "cost, -1.0::double precision AS reverse_cost, geom FROM {}",
+                       names.full(names.edges()), column(Quantity::arc_id), column(Quantity::from_node),
+                       column(Quantity::to_node), column(Quantity::length), names.full(table));
+}
+
 } // namespace
 
 void write_geopackage(NetworkTables const& tables, std::string const& path, Run const& run) {
@@ -311,110 +411,6 @@ void write_findings(std::vector<Finding> const& findings, std::string const& crs
 }
 
 // A network in a database.
-
-namespace {
-
-/// What is made, where: names are plain, so that they stand in SQL as they are.
-struct Names {
-    std::string schema; ///< of the database; "" for its default
-    std::string name;
-
-    std::string full(std::string const& relation) const { return schema.empty() ? relation : schema + "." + relation; }
-    std::string edges() const { return name + "_edges"; }
-};
-
-bool is_plain_word(std::string_view word) {
-    auto const letter = [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; };
-    constexpr std::size_t most = 50; // PostgreSQL cuts names after 63 bytes, ours get endings
-    return !word.empty() && word.size() <= most && letter(word.front()) &&
-           std::ranges::all_of(word, [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
-}
-
-Names names_of(std::string const& text) {
-    std::size_t const dot = text.find('.');
-    Names names{dot == std::string::npos ? "" : text.substr(0, dot),
-                dot == std::string::npos ? text : text.substr(dot + 1)};
-    refuse_if<BadParameter>((dot != std::string::npos && !is_plain_word(names.schema)) || !is_plain_word(names.name),
-                            "io.write_postgis: '{}' is not a valid table name: write NAME or SCHEMA.NAME in lower-case "
-                            "letters, digits and _, at most 50",
-                            text);
-    return names;
-}
-
-Dataset open_database(std::string const& connection, std::string const& what, Driver const& driver) {
-    std::array<char const*, 2> constexpr drivers{"PostgreSQL", nullptr};
-    std::array<char const*, 2> constexpr options{"LIST_ALL_TABLES=NO", nullptr};
-    Dataset dataset(
-        GDALDataset::Open(connection.c_str(), GDAL_OF_VECTOR | GDAL_OF_UPDATE, drivers.data(), options.data()));
-    if (dataset == nullptr) {
-        std::string const reason = driver.take();
-        throw IoError(fmt::format("{} cannot be reached: {}", what, reason.empty() ? "no reason given" : reason));
-    }
-    return dataset;
-}
-
-/// A database in a transaction, which is rolled back unless commit() is called.
-class Database {
-public:
-    Database(std::string const& connection, std::string const& what, std::string const& crs, std::string const& schema)
-        : dataset_(open_database(connection, what, driver_)),
-          reference_(crs.empty() ? OGRSpatialReference() : read_reference(crs)),
-          target_{LayerFormat::postgresql, what, driver_, *dataset_, crs.empty() ? nullptr : &reference_, schema} {
-        target_.require(dataset_->StartTransaction() == OGRERR_NONE);
-    }
-    ~Database() {
-        if (open_) {
-            dataset_->RollbackTransaction();
-        }
-    }
-    Database(Database const&) = delete;
-    Database& operator=(Database const&) = delete;
-
-    /// The first field of the first row that a query gives, "" for none.
-    std::string ask(std::string const& sql) {
-        OGRLayer* const result = dataset_->ExecuteSQL(sql.c_str(), nullptr, nullptr);
-        driver_.check(target_.what);
-        std::string answer;
-        if (result != nullptr) {
-            if (OGRFeatureUniquePtr const row{result->GetNextFeature()}; row != nullptr && row->GetFieldCount() > 0) {
-                answer = row->GetFieldAsString(0);
-            }
-            dataset_->ReleaseResultSet(result);
-        }
-        return answer;
-    }
-    void write(Table const& table, Run const& run) {
-        write_layer(target_, table, run);
-        // The driver makes a table when its first row comes, or it is asked for what it holds.
-        if (OGRLayer* const layer = dataset_->GetLayer(dataset_->GetLayerCount() - 1)) {
-            target_.require(layer->SyncToDisk() == OGRERR_NONE);
-        }
-    }
-    void commit() {
-        target_.require(dataset_->CommitTransaction() == OGRERR_NONE);
-        open_ = false;
-        driver_.check(target_.what);
-    }
-
-private:
-    Driver driver_;
-    Connection connection_;
-    Dataset dataset_;
-    OGRSpatialReference reference_;
-    LayerTarget target_;
-    bool open_ = true;
-};
-
-/// The view that pgRouting takes.
-std::string edges_view(Names const& names, std::string const& table, SchemaTable const& schema) {
-    auto const column = [&](Quantity quantity) { return lower_case(std::string(field_of(schema, quantity)->name)); };
-    return fmt::format("CREATE VIEW {} AS SELECT {}::bigint AS id, {}::bigint AS source, {}::bigint AS target, {} AS "
-                       "cost, -1.0::double precision AS reverse_cost, geom FROM {}",
-                       names.full(names.edges()), column(Quantity::arc_id), column(Quantity::from_node),
-                       column(Quantity::to_node), column(Quantity::length), names.full(table));
-}
-
-} // namespace
 
 bool is_postgis(std::string const& name) {
     return name.starts_with("PG:") || name.starts_with("pg:");

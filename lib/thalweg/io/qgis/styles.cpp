@@ -204,6 +204,56 @@ std::string quoted(std::string const& field) {
     return out + '"';
 }
 
+std::string legend(std::string const& unit) {
+    return fmt::format("<rampLegendSettings useContinuousLegend=\"1\" orientation=\"2\" direction=\"0\" prefix=\"\" "
+                       "suffix=\"{}\" minimumLabel=\"\" maximumLabel=\"\"><numericFormat id=\"basic\">"
+                       "<Option type=\"Map\"><Option type=\"int\" name=\"decimals\" value=\"0\"/>"
+                       "<Option type=\"int\" name=\"rounding_type\" value=\"0\"/>"
+                       "<Option type=\"bool\" name=\"show_thousand_separator\" value=\"false\"/></Option>"
+                       "</numericFormat></rampLegendSettings>",
+                       xml_escaped(" " + unit));
+}
+
+std::string shader(Tints const& tints, std::string const& unit, std::string const& legend_text) {
+    std::string items;
+    for (auto const& [value, tint] : tints) {
+        items += fmt::format(R"(<item value="{}" color="{}" alpha="255" label="{:.6g} {}"/>)", value, tint, value,
+                             xml_escaped(unit));
+    }
+    return fmt::format("<colorrampshader colorRampType=\"INTERPOLATED\" classificationMode=\"1\" clip=\"0\" "
+                       "labelPrecision=\"0\" minimumValue=\"{}\" maximumValue=\"{}\">{}{}</colorrampshader>",
+                       tints.front().first, tints.back().first, items, legend_text);
+}
+
+struct Tone {
+    int brightness = 0;
+    int contrast = 0;
+};
+
+/// \param blend Qt's number of a blend mode, as QML has it: 0 normal, 6 multiply
+std::string raster_pipe(std::string const& renderer, Tone light, int blend, char const* resampling) {
+    return fmt::format("<pipe><provider><resampling enabled=\"false\"/></provider>{}"
+                       "<brightnesscontrast brightness=\"{}\" contrast=\"{}\" gamma=\"1\"/>"
+                       "<huesaturation saturation=\"0\" grayscaleMode=\"0\" colorizeOn=\"0\" invertColors=\"0\"/>"
+                       "<rasterresampler maxOversampling=\"2\"{}/><resamplingStage>resamplingFilter</resamplingStage>"
+                       "</pipe><blendMode>{}</blendMode>",
+                       renderer, light.brightness, light.contrast, resampling, blend);
+}
+
+constexpr char const* smooth =
+    R"( zoomedInResampler="bilinear" zoomedOutResampler="bilinear")"; // by cells of a DEM a hillshade has steps
+constexpr char const* by_cells = "";
+constexpr int normal = 0;
+constexpr int multiply = 6;
+
+std::string pseudocolour(Tints const& tints, std::string const& unit, std::string const& no_data,
+                         std::string const& legend_text) {
+    return fmt::format("<rasterrenderer type=\"singlebandpseudocolor\" band=\"1\" opacity=\"1\" alphaBand=\"-1\" "
+                       "nodataColor=\"{}\" classificationMin=\"{}\" classificationMax=\"{}\"><minMaxOrigin>"
+                       "<limits>None</limits></minMaxOrigin><rastershader>{}</rastershader></rasterrenderer>",
+                       no_data, tints.front().first, tints.back().first, shader(tints, unit, legend_text));
+}
+
 } // namespace
 
 std::string xml_escaped(std::string_view text) {
@@ -311,60 +361,6 @@ QgisStyle water_style() {
 }
 
 // Rasters and meshes.
-
-namespace {
-
-std::string legend(std::string const& unit) {
-    return fmt::format("<rampLegendSettings useContinuousLegend=\"1\" orientation=\"2\" direction=\"0\" prefix=\"\" "
-                       "suffix=\"{}\" minimumLabel=\"\" maximumLabel=\"\"><numericFormat id=\"basic\">"
-                       "<Option type=\"Map\"><Option type=\"int\" name=\"decimals\" value=\"0\"/>"
-                       "<Option type=\"int\" name=\"rounding_type\" value=\"0\"/>"
-                       "<Option type=\"bool\" name=\"show_thousand_separator\" value=\"false\"/></Option>"
-                       "</numericFormat></rampLegendSettings>",
-                       xml_escaped(" " + unit));
-}
-
-std::string shader(Tints const& tints, std::string const& unit, std::string const& legend_text) {
-    std::string items;
-    for (auto const& [value, tint] : tints) {
-        items += fmt::format(R"(<item value="{}" color="{}" alpha="255" label="{:.6g} {}"/>)", value, tint, value,
-                             xml_escaped(unit));
-    }
-    return fmt::format("<colorrampshader colorRampType=\"INTERPOLATED\" classificationMode=\"1\" clip=\"0\" "
-                       "labelPrecision=\"0\" minimumValue=\"{}\" maximumValue=\"{}\">{}{}</colorrampshader>",
-                       tints.front().first, tints.back().first, items, legend_text);
-}
-
-struct Tone {
-    int brightness = 0;
-    int contrast = 0;
-};
-
-/// \param blend Qt's number of a blend mode, as QML has it: 0 normal, 6 multiply
-std::string raster_pipe(std::string const& renderer, Tone light, int blend, char const* resampling) {
-    return fmt::format("<pipe><provider><resampling enabled=\"false\"/></provider>{}"
-                       "<brightnesscontrast brightness=\"{}\" contrast=\"{}\" gamma=\"1\"/>"
-                       "<huesaturation saturation=\"0\" grayscaleMode=\"0\" colorizeOn=\"0\" invertColors=\"0\"/>"
-                       "<rasterresampler maxOversampling=\"2\"{}/><resamplingStage>resamplingFilter</resamplingStage>"
-                       "</pipe><blendMode>{}</blendMode>",
-                       renderer, light.brightness, light.contrast, resampling, blend);
-}
-
-constexpr char const* smooth =
-    R"( zoomedInResampler="bilinear" zoomedOutResampler="bilinear")"; // by cells of a DEM a hillshade has steps
-constexpr char const* by_cells = "";
-constexpr int normal = 0;
-constexpr int multiply = 6;
-
-std::string pseudocolour(Tints const& tints, std::string const& unit, std::string const& no_data,
-                         std::string const& legend_text) {
-    return fmt::format("<rasterrenderer type=\"singlebandpseudocolor\" band=\"1\" opacity=\"1\" alphaBand=\"-1\" "
-                       "nodataColor=\"{}\" classificationMin=\"{}\" classificationMax=\"{}\"><minMaxOrigin>"
-                       "<limits>None</limits></minMaxOrigin><rastershader>{}</rastershader></rasterrenderer>",
-                       no_data, tints.front().first, tints.back().first, shader(tints, unit, legend_text));
-}
-
-} // namespace
 
 QgisStyle tint_style(Tints const& tints, std::string const& unit, std::string const& no_data) {
     refuse_if<BadInput>(tints.size() < 2, "io.tint_style: {} tints; there must be two or more", tints.size());

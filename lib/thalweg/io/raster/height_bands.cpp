@@ -90,30 +90,6 @@ int number_in(std::string const& text) {
     return is_number ? std::stoi(text) : 0;
 }
 
-} // namespace
-
-Dataset variable_of_heights(Dataset const& file, std::string const& what) {
-    std::vector<Variable> const variables = variables_in(*file);
-    std::vector<std::string> names;
-    std::vector<std::string> parts;
-    for (Variable const& variable : variables) {
-        names.push_back(variable.name);
-        parts.push_back(last_part(variable.name));
-    }
-    refuse_if<BadInput>(variables.empty(), "{} holds no cells", what);
-    auto const at = variables.size() == 1 ? std::optional<std::size_t>(0) : name_of_heights(parts);
-    refuse_if<BadInput>(!at,
-                        "{} holds {} variables ({}): name the one of heights with --band NAME where the command has "
-                        "that option, else as {}",
-                        what, variables.size(), fmt::join(names, ", "), variables.front().opens);
-    Dataset variable = open_part(file, variables[*at].opens);
-    refuse_if<BadInput>(variable == nullptr || variable->GetRasterCount() < 1, "{}: its variable {} cannot be read",
-                        what, variables[*at].name);
-    return variable;
-}
-
-namespace {
-
 /// Chooses the variable where the data set of the file itself is not the one to read.
 void choose_variable(HeightBands& bands, std::string const& wanted, std::string const& what) {
     bool const is_by_name = !wanted.empty() && number_in(wanted) == 0;
@@ -204,6 +180,26 @@ GDALRasterBand* clear_band(Candidates const& found, std::optional<Finding>& choi
 }
 
 } // namespace
+
+Dataset variable_of_heights(Dataset const& file, std::string const& what) {
+    std::vector<Variable> const variables = variables_in(*file);
+    std::vector<std::string> names;
+    std::vector<std::string> parts;
+    for (Variable const& variable : variables) {
+        names.push_back(variable.name);
+        parts.push_back(last_part(variable.name));
+    }
+    refuse_if<BadInput>(variables.empty(), "{} holds no cells", what);
+    auto const at = variables.size() == 1 ? std::optional<std::size_t>(0) : name_of_heights(parts);
+    refuse_if<BadInput>(!at,
+                        "{} holds {} variables ({}): name the one of heights with --band NAME where the command has "
+                        "that option, else as {}",
+                        what, variables.size(), fmt::join(names, ", "), variables.front().opens);
+    Dataset variable = open_part(file, variables[*at].opens);
+    refuse_if<BadInput>(variable == nullptr || variable->GetRasterCount() < 1, "{}: its variable {} cannot be read",
+                        what, variables[*at].name);
+    return variable;
+}
 
 HeightBands choose_bands(Dataset file, ReadDemParams const& params, std::string const& what) {
     HeightBands bands;

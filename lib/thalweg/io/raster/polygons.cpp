@@ -190,38 +190,6 @@ void reproject(std::vector<Polygon>& polygons, OGRSpatialReference const& from, 
     }
 }
 
-} // namespace
-
-bool holds_polygons(Source const& source) {
-    Driver const driver;
-    Dataset const data = open_file(source, GDAL_OF_RASTER | GDAL_OF_VECTOR, "io.holds_polygons: " + source.path);
-    return data->GetRasterCount() == 0 && !polygon_layers(*data).empty();
-}
-
-std::string crs_for_polygons(Source const& source) {
-    auto const name = std::filesystem::path(source.path).filename().string();
-    Driver const driver;
-    Dataset const data = open_file(source, GDAL_OF_VECTOR, "io.read_polygons: " + source.path);
-    OGRLayer& layer = choose_layer(*data, name);
-    OGREnvelope box;
-    if (is_missing(layer.GetSpatialRef()) || layer.GetExtent(&box) != OGRERR_NONE) {
-        refuse_polygons(fmt::format("layer {} of {} has no CRS or no polygons; assign one (ogr2ogr -a_srs EPSG:n)",
-                                    layer.GetName(), name));
-    }
-    return IntoMetres(*layer.GetSpatialRef(), "", {{box.MinX, box.MinY}, {box.MaxX, box.MaxY}}, name).crs();
-}
-
-PolygonsCrs crs_of_polygons(Source const& source) {
-    auto const name = std::filesystem::path(source.path).filename().string();
-    Driver const driver;
-    Dataset const data = open_file(source, GDAL_OF_VECTOR, "io.read_polygons: " + source.path);
-    OGRSpatialReference own = crs_of_layer(choose_layer(*data, name).GetSpatialRef(), "");
-    own.StripVertical();
-    return own.IsEmpty() != 0 ? PolygonsCrs() : PolygonsCrs{name_of(own), is_projected_in_metres(own)};
-}
-
-namespace {
-
 Polygons read_with(Source const& source, std::string const& crs, ValueField const& field, Run const& run) {
     auto const name = std::filesystem::path(source.path).filename().string();
     Driver const driver;
@@ -242,22 +210,6 @@ Polygons read_with(Source const& source, std::string const& crs, ValueField cons
     }
     return read;
 }
-
-} // namespace
-
-Polygons read_polygons(Source const& source, std::string const& crs, Run const& run) {
-    return read_with(source, crs, {}, run);
-}
-
-Polygons read_polygons(Source const& source, std::string const& crs, std::string const& field, Run const& run) {
-    return read_with(source, crs, {field}, run);
-}
-
-Polygons read_polygons_valued(Source const& source, std::string const& crs, std::string const& field, Run const& run) {
-    return read_with(source, crs, {field, Values::optional}, run);
-}
-
-namespace {
 
 std::unique_ptr<OGRGeometry> shape_of(Polygon const& polygon) {
     auto shape = std::make_unique<OGRPolygon>();
@@ -344,61 +296,6 @@ void take_parts(OGRGeometry const& shape, std::int64_t feature, std::vector<Poly
     }
 }
 
-} // namespace
-
-std::vector<Polygon> united(std::vector<Polygon> polygons, double gap_m) {
-    Driver const driver;
-    std::vector<std::unique_ptr<OGRGeometry>> shapes;
-    std::vector<OGREnvelope> boxes(polygons.size());
-    for (std::size_t i = 0; i < polygons.size(); ++i) {
-        shapes.push_back(shape_of(polygons[i]));
-        shapes[i]->getEnvelope(&boxes[i]);
-        if (boxes[i].IsInit() != 0) {
-            boxes[i] = widened(boxes[i], 0.5 * gap_m);
-        }
-    }
-    std::vector<std::size_t> const group = groups_by_box(boxes);
-    std::map<std::size_t, std::vector<std::size_t>> members;
-    for (std::size_t i = 0; i < group.size(); ++i) {
-        members[group[i]].push_back(i);
-    }
-    std::vector<Polygon> result;
-    for (auto const& [first, of] : members) {
-        if (of.size() == 1 && shapes[first]->IsValid() != 0) {
-            take_parts(*shapes[first], polygons[first].feature, result);
-            continue;
-        }
-        OGRMultiPolygon all;
-        for (std::size_t const i : of) {
-            std::unique_ptr<OGRGeometry> const mended(shapes[i]->IsValid() != 0 ? shapes[i]->clone()
-                                                                                : shapes[i]->MakeValid());
-            std::vector<Polygon> parts;
-            if (mended != nullptr) {
-                take_parts(*mended, polygons[i].feature, parts);
-            }
-            for (Polygon const& part : parts) {
-                all.addGeometryDirectly(shape_of(part).release());
-            }
-        }
-        std::unique_ptr<OGRGeometry> const whole = closed(std::unique_ptr<OGRGeometry>(all.UnionCascaded()), gap_m);
-        if (whole == nullptr) {
-            continue;
-        }
-        std::vector<Polygon> parts;
-        take_parts(*whole, polygons[first].feature, parts);
-        for (Polygon& part : parts) { // the first feature in it
-            std::unique_ptr<OGRGeometry> const shape = shape_of(part);
-            auto const own =
-                std::ranges::find_if(of, [&](std::size_t i) { return shape->Intersects(shapes[i].get()) != 0; });
-            part.feature = own == of.end() ? part.feature : polygons[*own].feature;
-            result.push_back(std::move(part));
-        }
-    }
-    return result;
-}
-
-namespace {
-
 constexpr std::int32_t none = -1;
 
 void require_numbers(Raster<std::int32_t> const& numbers, std::int64_t count, std::string const& what) {
@@ -441,35 +338,6 @@ Polygon taken(OGRPolygon const& drawn, std::int64_t number) {
     }
     return polygon;
 }
-
-} // namespace
-
-std::vector<std::vector<Polygon>> polygonise(Raster<std::int32_t> const& numbers, std::int64_t count, Run const& run) {
-    std::string const what = "io.polygonise";
-    require_numbers(numbers, count, what);
-    Driver const driver;
-    Dataset const source = numbers_in_memory(numbers, what);
-    Dataset const drawn(GetGDALDriverManager()->GetDriverByName("Memory")->Create("", 0, 0, 0, GDT_Unknown, nullptr));
-    OGRLayer* const layer = drawn->CreateLayer("polygons", nullptr, wkbPolygon, nullptr);
-    OGRFieldDefn field("number", OFTInteger);
-    layer->CreateField(&field);
-    GDALRasterBand& band = *source->GetRasterBand(1);
-    GdalProgress gdal_progress(run, "outline");
-    CPLErr const error = GDALPolygonize(GDALRasterBand::ToHandle(&band), GDALRasterBand::ToHandle(band.GetMaskBand()),
-                                        OGRLayer::ToHandle(layer), 0, nullptr, &GdalProgress::step, &gdal_progress);
-    gdal_progress.settle();
-    driver.check(what);
-    refuse_if<IoError>(error != CE_None, "{} failed", what);
-    std::vector<std::vector<Polygon>> polygons(count);
-    for (auto const& feature : *layer) {
-        auto const number = feature->GetFieldAsInteger64(0);
-        polygons[number].push_back(taken(*feature->GetGeometryRef()->toPolygon(), number));
-    }
-    driver.check(what); // a failed allocation also ends the loop
-    return polygons;
-}
-
-namespace {
 
 using Kind = Column::Kind;
 
@@ -538,6 +406,122 @@ void add_columns(Table& table, std::vector<Column> const& columns,
 }
 
 } // namespace
+
+bool holds_polygons(Source const& source) {
+    Driver const driver;
+    Dataset const data = open_file(source, GDAL_OF_RASTER | GDAL_OF_VECTOR, "io.holds_polygons: " + source.path);
+    return data->GetRasterCount() == 0 && !polygon_layers(*data).empty();
+}
+
+std::string crs_for_polygons(Source const& source) {
+    auto const name = std::filesystem::path(source.path).filename().string();
+    Driver const driver;
+    Dataset const data = open_file(source, GDAL_OF_VECTOR, "io.read_polygons: " + source.path);
+    OGRLayer& layer = choose_layer(*data, name);
+    OGREnvelope box;
+    if (is_missing(layer.GetSpatialRef()) || layer.GetExtent(&box) != OGRERR_NONE) {
+        refuse_polygons(fmt::format("layer {} of {} has no CRS or no polygons; assign one (ogr2ogr -a_srs EPSG:n)",
+                                    layer.GetName(), name));
+    }
+    return IntoMetres(*layer.GetSpatialRef(), "", {{box.MinX, box.MinY}, {box.MaxX, box.MaxY}}, name).crs();
+}
+
+PolygonsCrs crs_of_polygons(Source const& source) {
+    auto const name = std::filesystem::path(source.path).filename().string();
+    Driver const driver;
+    Dataset const data = open_file(source, GDAL_OF_VECTOR, "io.read_polygons: " + source.path);
+    OGRSpatialReference own = crs_of_layer(choose_layer(*data, name).GetSpatialRef(), "");
+    own.StripVertical();
+    return own.IsEmpty() != 0 ? PolygonsCrs() : PolygonsCrs{name_of(own), is_projected_in_metres(own)};
+}
+
+Polygons read_polygons(Source const& source, std::string const& crs, Run const& run) {
+    return read_with(source, crs, {}, run);
+}
+
+Polygons read_polygons(Source const& source, std::string const& crs, std::string const& field, Run const& run) {
+    return read_with(source, crs, {field}, run);
+}
+
+Polygons read_polygons_valued(Source const& source, std::string const& crs, std::string const& field, Run const& run) {
+    return read_with(source, crs, {field, Values::optional}, run);
+}
+
+std::vector<Polygon> united(std::vector<Polygon> polygons, double gap_m) {
+    Driver const driver;
+    std::vector<std::unique_ptr<OGRGeometry>> shapes;
+    std::vector<OGREnvelope> boxes(polygons.size());
+    for (std::size_t i = 0; i < polygons.size(); ++i) {
+        shapes.push_back(shape_of(polygons[i]));
+        shapes[i]->getEnvelope(&boxes[i]);
+        if (boxes[i].IsInit() != 0) {
+            boxes[i] = widened(boxes[i], 0.5 * gap_m);
+        }
+    }
+    std::vector<std::size_t> const group = groups_by_box(boxes);
+    std::map<std::size_t, std::vector<std::size_t>> members;
+    for (std::size_t i = 0; i < group.size(); ++i) {
+        members[group[i]].push_back(i);
+    }
+    std::vector<Polygon> result;
+    for (auto const& [first, of] : members) {
+        if (of.size() == 1 && shapes[first]->IsValid() != 0) {
+            take_parts(*shapes[first], polygons[first].feature, result);
+            continue;
+        }
+        OGRMultiPolygon all;
+        for (std::size_t const i : of) {
+            std::unique_ptr<OGRGeometry> const mended(shapes[i]->IsValid() != 0 ? shapes[i]->clone()
+                                                                                : shapes[i]->MakeValid());
+            std::vector<Polygon> parts;
+            if (mended != nullptr) {
+                take_parts(*mended, polygons[i].feature, parts);
+            }
+            for (Polygon const& part : parts) {
+                all.addGeometryDirectly(shape_of(part).release());
+            }
+        }
+        std::unique_ptr<OGRGeometry> const whole = closed(std::unique_ptr<OGRGeometry>(all.UnionCascaded()), gap_m);
+        if (whole == nullptr) {
+            continue;
+        }
+        std::vector<Polygon> parts;
+        take_parts(*whole, polygons[first].feature, parts);
+        for (Polygon& part : parts) { // the first feature in it
+            std::unique_ptr<OGRGeometry> const shape = shape_of(part);
+            auto const own =
+                std::ranges::find_if(of, [&](std::size_t i) { return shape->Intersects(shapes[i].get()) != 0; });
+            part.feature = own == of.end() ? part.feature : polygons[*own].feature;
+            result.push_back(std::move(part));
+        }
+    }
+    return result;
+}
+
+std::vector<std::vector<Polygon>> polygonise(Raster<std::int32_t> const& numbers, std::int64_t count, Run const& run) {
+    std::string const what = "io.polygonise";
+    require_numbers(numbers, count, what);
+    Driver const driver;
+    Dataset const source = numbers_in_memory(numbers, what);
+    Dataset const drawn(GetGDALDriverManager()->GetDriverByName("Memory")->Create("", 0, 0, 0, GDT_Unknown, nullptr));
+    OGRLayer* const layer = drawn->CreateLayer("polygons", nullptr, wkbPolygon, nullptr);
+    OGRFieldDefn field("number", OFTInteger);
+    layer->CreateField(&field);
+    GDALRasterBand& band = *source->GetRasterBand(1);
+    GdalProgress gdal_progress(run, "outline");
+    CPLErr const error = GDALPolygonize(GDALRasterBand::ToHandle(&band), GDALRasterBand::ToHandle(band.GetMaskBand()),
+                                        OGRLayer::ToHandle(layer), 0, nullptr, &GdalProgress::step, &gdal_progress);
+    gdal_progress.settle();
+    driver.check(what);
+    refuse_if<IoError>(error != CE_None, "{} failed", what);
+    std::vector<std::vector<Polygon>> polygons(count);
+    for (auto const& feature : *layer) {
+        auto const number = feature->GetFieldAsInteger64(0);
+        polygons[number].push_back(taken(*feature->GetGeometryRef()->toPolygon(), number));
+    }
+    driver.check(what); // a failed allocation also ends the loop
+    return polygons;
+}
 
 Raster<std::int32_t> basins_by_cell(CatchmentTables const& tables) {
     std::vector<std::int32_t> basin_of_row;

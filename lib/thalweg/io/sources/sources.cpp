@@ -69,6 +69,131 @@ bool holds_lines(Source const& source) {
     return holds;
 }
 
+struct Units {
+    OGRSpatialReference crs;
+    double height_m = 1.0;
+    bool names_height = false; ///< the file specifies the unit of its heights
+    bool has_heights = false;
+    std::optional<FileBox> box; ///< of data that have positions
+};
+
+std::optional<FileBox> placed_box(GDALDataset& data) {
+    std::array<double, 6> place{};
+    if (data.GetGeoTransform(place.data()) != CE_None) {
+        return std::nullopt;
+    }
+    double const east = place[0] + data.GetRasterXSize() * place[1];
+    double const south = place[3] + data.GetRasterYSize() * place[5];
+    return FileBox{{std::min(place[0], east), std::min(place[3], south)},
+                   {std::max(place[0], east), std::max(place[3], south)}};
+}
+
+std::optional<FileBox> placed_box(OGRLayer& layer) {
+    OGREnvelope box;
+    return layer.GetExtent(&box) == OGRERR_NONE ? std::optional(FileBox{{box.MinX, box.MinY}, {box.MaxX, box.MaxY}})
+                                                : std::nullopt;
+}
+
+OGRLayer* layer_of(GDALDataset& data, std::string const& wanted, std::string const& path) {
+    try {
+        return rivers_layers(data, wanted, "io.conversions_of: " + path).front();
+    } catch (BadInput const&) { // it has points or polygons
+        return data.GetLayerCount() > 0 ? data.GetLayer(0) : nullptr;
+    }
+}
+
+Units units_of(GDALDataset& data, std::string const& wanted, std::string const& path, std::string const& source_crs) {
+    Units units;
+    if (data.GetRasterCount() > 0) {
+        units.crs = crs_of_layer(data.GetSpatialRef(), ""); // its heights: findings of read_dem_file()
+        units.box = placed_box(data);
+    } else if (OGRLayer* const layer = layer_of(data, wanted, path)) {
+        units.crs = crs_of_layer(layer->GetSpatialRef(), source_crs);
+        units.height_m = height_unit_of(*layer, source_crs);
+        units.names_height = layer->GetLayerDefn()->GetFieldIndex("z_unit") >= 0;
+        units.has_heights = OGR_GT_HasZ(layer->GetGeomType()) != 0;
+        units.box = placed_box(*layer);
+    }
+    units.names_height = units.names_height || has_vertical_unit(&units.crs);
+    return units;
+}
+
+std::string unit_in_plan(OGRSpatialReference const& crs, std::optional<FileBox> const& box) {
+    if (box && is_distorted(crs, *box)) {
+        Vec2 const middle{0.5 * (box->low.x + box->high.x), 0.5 * (box->low.y + box->high.y)};
+        auto const scale = GroundScale(crs).at(middle);
+        return scale ? fmt::format("metres of {:.3g} m on the ground", scale->side_m) : "metres";
+    }
+    return crs.IsGeographic() != 0 ? "degrees" : words_for_unit(crs.GetLinearUnits());
+}
+
+Dataset copy_raster(GDALDataset& source, std::string const& path, GdalProgress& gdal_progress) {
+    CPLStringList options;
+    options.SetNameValue("COMPRESS", "DEFLATE");
+    options.SetNameValue("BIGTIFF", "IF_SAFER");
+    return Dataset(GetGDALDriverManager()->GetDriverByName("GTiff")->CreateCopy(
+        path.c_str(), &source, FALSE, options.List(), &GdalProgress::step, &gdal_progress));
+}
+
+/// \param more options of ogr2ogr
+Dataset copy_layers(GDALDataset& source, std::vector<std::string> const& layers, std::string const& path,
+                    GdalProgress& gdal_progress, std::vector<std::string> const& more = {}) {
+    CPLStringList words;
+    for (std::string const& word : more) {
+        words.AddString(word.c_str());
+    }
+    // The columns for ids and geometries must not collide with the source's.
+    for (char const* const word : {"-f", "GPKG", "-lco", "FID=thalweg_fid", "-lco", "GEOMETRY_NAME=thalweg_shape"}) {
+        words.AddString(word);
+    }
+    for (std::string const& name : layers) {
+        words.AddString(name.c_str());
+    }
+    std::unique_ptr<GDALVectorTranslateOptions, decltype(&GDALVectorTranslateOptionsFree)> const options(
+        GDALVectorTranslateOptionsNew(words.List(), nullptr), &GDALVectorTranslateOptionsFree);
+    GDALVectorTranslateOptionsSetProgress(options.get(), &GdalProgress::step, &gdal_progress);
+    GDALDatasetH from = GDALDataset::ToHandle(&source);
+    int wrong_use = FALSE;
+    return Dataset(
+        GDALDataset::FromHandle(GDALVectorTranslate(path.c_str(), nullptr, 1, &from, options.get(), &wrong_use)));
+}
+
+/// The names of the layers to copy; none: all.
+std::vector<std::string> names_to_copy(GDALDataset& source, std::string const& wanted, std::string const& path) {
+    if (wanted.empty()) {
+        return {};
+    }
+    bool const is_one = source.GetLayerByName(wanted.c_str()) != nullptr;
+    std::vector<std::string> names =
+        is_one ? std::vector{wanted} : layer_names(rivers_layers(source, wanted, "io.plain_copy: " + path));
+    for (OGRLayer* const layer : layers_of(source)) { // rivers run on through them
+        bool const is_there = std::ranges::find(names, layer->GetName()) != names.end();
+        if (!is_there && may_hold_lakes(*layer)) {
+            names.emplace_back(layer->GetName());
+        }
+    }
+    return names;
+}
+
+/// Adds the lakes of OpenStreetMap to a copy of its ways. Of its layers one is read at a time.
+bool append_osm_lakes(std::string const& source, std::string const& path, GdalProgress& gdal_progress) {
+    Dataset const data = open_unchanged(source, GDAL_OF_VECTOR);
+    if (!data) {
+        return false;
+    }
+    read_osm_layer(*data, "multipolygons");
+    return copy_layers(*data, {"multipolygons"}, path, gdal_progress,
+                       {"-update", "-where", "natural = 'water' OR landuse = 'reservoir'"}) != nullptr;
+}
+
+std::string stem_of(std::string const& source, std::string const& layer) {
+    std::string stem = names_connection(source) ? layer : std::filesystem::path(source).stem().string();
+    for (char& c : stem) {
+        c = c == '/' ? '_' : c;
+    }
+    return stem.empty() ? "input" : stem;
+}
+
 } // namespace
 
 FileContent content_of(Source const& source) {
@@ -159,68 +284,6 @@ std::vector<std::string> dataset_files(Source const& source) {
     return files;
 }
 
-namespace {
-
-struct Units {
-    OGRSpatialReference crs;
-    double height_m = 1.0;
-    bool names_height = false; ///< the file specifies the unit of its heights
-    bool has_heights = false;
-    std::optional<FileBox> box; ///< of data that have positions
-};
-
-std::optional<FileBox> placed_box(GDALDataset& data) {
-    std::array<double, 6> place{};
-    if (data.GetGeoTransform(place.data()) != CE_None) {
-        return std::nullopt;
-    }
-    double const east = place[0] + data.GetRasterXSize() * place[1];
-    double const south = place[3] + data.GetRasterYSize() * place[5];
-    return FileBox{{std::min(place[0], east), std::min(place[3], south)},
-                   {std::max(place[0], east), std::max(place[3], south)}};
-}
-
-std::optional<FileBox> placed_box(OGRLayer& layer) {
-    OGREnvelope box;
-    return layer.GetExtent(&box) == OGRERR_NONE ? std::optional(FileBox{{box.MinX, box.MinY}, {box.MaxX, box.MaxY}})
-                                                : std::nullopt;
-}
-
-OGRLayer* layer_of(GDALDataset& data, std::string const& wanted, std::string const& path) {
-    try {
-        return rivers_layers(data, wanted, "io.conversions_of: " + path).front();
-    } catch (BadInput const&) { // it has points or polygons
-        return data.GetLayerCount() > 0 ? data.GetLayer(0) : nullptr;
-    }
-}
-
-Units units_of(GDALDataset& data, std::string const& wanted, std::string const& path, std::string const& source_crs) {
-    Units units;
-    if (data.GetRasterCount() > 0) {
-        units.crs = crs_of_layer(data.GetSpatialRef(), ""); // its heights: findings of read_dem_file()
-        units.box = placed_box(data);
-    } else if (OGRLayer* const layer = layer_of(data, wanted, path)) {
-        units.crs = crs_of_layer(layer->GetSpatialRef(), source_crs);
-        units.height_m = height_unit_of(*layer, source_crs);
-        units.names_height = layer->GetLayerDefn()->GetFieldIndex("z_unit") >= 0;
-        units.has_heights = OGR_GT_HasZ(layer->GetGeomType()) != 0;
-        units.box = placed_box(*layer);
-    }
-    units.names_height = units.names_height || has_vertical_unit(&units.crs);
-    return units;
-}
-
-std::string unit_in_plan(OGRSpatialReference const& crs, std::optional<FileBox> const& box) {
-    if (box && is_distorted(crs, *box)) {
-        Vec2 const middle{0.5 * (box->low.x + box->high.x), 0.5 * (box->low.y + box->high.y)};
-        auto const scale = GroundScale(crs).at(middle);
-        return scale ? fmt::format("metres of {:.3g} m on the ground", scale->side_m) : "metres";
-    }
-    return crs.IsGeographic() != 0 ? "degrees" : words_for_unit(crs.GetLinearUnits());
-}
-
-} // namespace
-
 std::vector<std::string> conversions_of(Source const& source, std::string const& layer, std::string const& crs,
                                         std::string const& source_crs) {
     if (is_text_of_points(source.path) || is_point_cloud(source.path) || crs.empty()) {
@@ -258,77 +321,6 @@ std::vector<std::string> conversions_of(Source const& source, std::string const&
     }
     return said;
 }
-
-namespace {
-
-Dataset copy_raster(GDALDataset& source, std::string const& path, GdalProgress& gdal_progress) {
-    CPLStringList options;
-    options.SetNameValue("COMPRESS", "DEFLATE");
-    options.SetNameValue("BIGTIFF", "IF_SAFER");
-    return Dataset(GetGDALDriverManager()->GetDriverByName("GTiff")->CreateCopy(
-        path.c_str(), &source, FALSE, options.List(), &GdalProgress::step, &gdal_progress));
-}
-
-/// \param more options of ogr2ogr
-Dataset copy_layers(GDALDataset& source, std::vector<std::string> const& layers, std::string const& path,
-                    GdalProgress& gdal_progress, std::vector<std::string> const& more = {}) {
-    CPLStringList words;
-    for (std::string const& word : more) {
-        words.AddString(word.c_str());
-    }
-    // The columns for ids and geometries must not collide with the source's.
-    for (char const* const word : {"-f", "GPKG", "-lco", "FID=thalweg_fid", "-lco", "GEOMETRY_NAME=thalweg_shape"}) {
-        words.AddString(word);
-    }
-    for (std::string const& name : layers) {
-        words.AddString(name.c_str());
-    }
-    std::unique_ptr<GDALVectorTranslateOptions, decltype(&GDALVectorTranslateOptionsFree)> const options(
-        GDALVectorTranslateOptionsNew(words.List(), nullptr), &GDALVectorTranslateOptionsFree);
-    GDALVectorTranslateOptionsSetProgress(options.get(), &GdalProgress::step, &gdal_progress);
-    GDALDatasetH from = GDALDataset::ToHandle(&source);
-    int wrong_use = FALSE;
-    return Dataset(
-        GDALDataset::FromHandle(GDALVectorTranslate(path.c_str(), nullptr, 1, &from, options.get(), &wrong_use)));
-}
-
-/// The names of the layers to copy; none: all.
-std::vector<std::string> names_to_copy(GDALDataset& source, std::string const& wanted, std::string const& path) {
-    if (wanted.empty()) {
-        return {};
-    }
-    bool const is_one = source.GetLayerByName(wanted.c_str()) != nullptr;
-    std::vector<std::string> names =
-        is_one ? std::vector{wanted} : layer_names(rivers_layers(source, wanted, "io.plain_copy: " + path));
-    for (OGRLayer* const layer : layers_of(source)) { // rivers run on through them
-        bool const is_there = std::ranges::find(names, layer->GetName()) != names.end();
-        if (!is_there && may_hold_lakes(*layer)) {
-            names.emplace_back(layer->GetName());
-        }
-    }
-    return names;
-}
-
-/// Adds the lakes of OpenStreetMap to a copy of its ways. Of its layers one is read at a time.
-bool append_osm_lakes(std::string const& source, std::string const& path, GdalProgress& gdal_progress) {
-    Dataset const data = open_unchanged(source, GDAL_OF_VECTOR);
-    if (!data) {
-        return false;
-    }
-    read_osm_layer(*data, "multipolygons");
-    return copy_layers(*data, {"multipolygons"}, path, gdal_progress,
-                       {"-update", "-where", "natural = 'water' OR landuse = 'reservoir'"}) != nullptr;
-}
-
-std::string stem_of(std::string const& source, std::string const& layer) {
-    std::string stem = names_connection(source) ? layer : std::filesystem::path(source).stem().string();
-    for (char& c : stem) {
-        c = c == '/' ? '_' : c;
-    }
-    return stem.empty() ? "input" : stem;
-}
-
-} // namespace
 
 std::string plain_copy(std::string const& source, std::string const& layer, std::string const& folder, Run const& run) {
     Driver const driver;

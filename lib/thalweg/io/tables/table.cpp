@@ -200,36 +200,6 @@ std::unique_ptr<OGRGeometry> drawn_shape(Table const& table, std::size_t row, st
     return line;
 }
 
-} // namespace
-
-void LayerTarget::require(bool done) const {
-    if (!done) {
-        driver.check(what);
-        throw IoError(what + " could not be written");
-    }
-}
-
-void write_layer(LayerTarget const& target, Table const& table, Run const& run) {
-    OGRLayer& layer = create_layer(target, table);
-    OGRFeature feature(layer.GetLayerDefn());
-    each_row(table, run, [&](std::size_t row) {
-        for (int i = 0; Column const& column : table.columns) {
-            set_field(feature, i++, column, row, target, table.name);
-        }
-        if (table.shape != Shape::none) {
-            target.require(feature.SetGeometry(drawn_shape(table, row, target.what).get()) == OGRERR_NONE);
-        }
-        // A shapefile counts its features from 0 and would leave a gap; other formats than GeoPackage count themselves.
-        auto const id = static_cast<GIntBig>(row);
-        feature.SetFID(target.format == LayerFormat::geopackage  ? id + 1
-                       : target.format == LayerFormat::shapefile ? id
-                                                                 : OGRNullFID);
-        target.require(layer.CreateFeature(&feature) == OGRERR_NONE);
-    });
-}
-
-namespace {
-
 /// A CRS that could not be written, such as the .prj of a shapefile, leaves only a file without one, and no error.
 void require_crs(std::string const& path, OGRSpatialReference const& wanted, std::string const& what) {
     Dataset const written(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
@@ -277,6 +247,32 @@ private:
 };
 
 } // namespace
+
+void LayerTarget::require(bool done) const {
+    if (!done) {
+        driver.check(what);
+        throw IoError(what + " could not be written");
+    }
+}
+
+void write_layer(LayerTarget const& target, Table const& table, Run const& run) {
+    OGRLayer& layer = create_layer(target, table);
+    OGRFeature feature(layer.GetLayerDefn());
+    each_row(table, run, [&](std::size_t row) {
+        for (int i = 0; Column const& column : table.columns) {
+            set_field(feature, i++, column, row, target, table.name);
+        }
+        if (table.shape != Shape::none) {
+            target.require(feature.SetGeometry(drawn_shape(table, row, target.what).get()) == OGRERR_NONE);
+        }
+        // A shapefile counts its features from 0 and would leave a gap; other formats than GeoPackage count themselves.
+        auto const id = static_cast<GIntBig>(row);
+        feature.SetFID(target.format == LayerFormat::geopackage  ? id + 1
+                       : target.format == LayerFormat::shapefile ? id
+                                                                 : OGRNullFID);
+        target.require(layer.CreateFeature(&feature) == OGRERR_NONE);
+    });
+}
 
 Table styles_table(std::span<Table const> tables) {
     auto const rows = std::make_shared<std::vector<std::pair<std::string, std::string>>>();

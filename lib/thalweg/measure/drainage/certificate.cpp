@@ -79,72 +79,6 @@ std::vector<std::int64_t> thresholds_to(std::int64_t most) {
     return out;
 }
 
-} // namespace
-
-Agreements agreement(std::vector<std::int64_t> const& found, std::vector<std::int64_t> const& rivers,
-                     Grid const& grid) {
-    return of_counts(within(found, rivers, grid), static_cast<std::int64_t>(found.size()), within(rivers, found, grid),
-                     static_cast<std::int64_t>(rivers.size()));
-}
-
-std::pair<std::int64_t, Agreements> best_threshold(Raster<std::int64_t> const& area_cells,
-                                                   std::vector<std::int64_t> const& rivers, Run const& run) {
-    auto const areas = area_cells.values();
-    std::vector<std::int64_t> const thresholds =
-        thresholds_to(areas.empty() ? 0 : *std::max_element(areas.begin(), areas.end()));
-    if (thresholds.empty()) {
-        return {0, {}};
-    }
-    // Counts thresholds up to an area; counts are stored there and accumulated from above.
-    auto const reached = [&](std::int64_t area) {
-        return static_cast<std::size_t>(std::upper_bound(thresholds.begin(), thresholds.end(), area) -
-                                        thresholds.begin());
-    };
-    std::vector<std::int64_t> found(thresholds.size() + 1, 0);
-    std::vector<Counts> hits(thresholds.size() + 1, Counts{});
-    std::vector<Counts> met(thresholds.size() + 1, Counts{});
-    Raster<std::uint8_t> const near = rings(rivers, area_cells.grid());
-    for (std::int64_t i = 0; i < area_cells.cells(); ++i) {
-        if (area_cells[i] >= thresholds.front()) {
-            std::size_t const bin = reached(area_cells[i]);
-            ++found[bin];
-            for (std::size_t k = near[i]; k < 3; ++k) {
-                ++hits[bin][k];
-            }
-        }
-    }
-    run.check();
-    for (std::int64_t const i : rivers) {
-        std::array<std::int64_t, 3> most{};
-        around(i, area_cells.grid(), [&](std::int64_t n, std::size_t ring) {
-            for (std::size_t k = ring; k < most.size(); ++k) {
-                most[k] = std::max(most[k], area_cells[n]);
-            }
-        });
-        for (std::size_t k = 0; k < most.size(); ++k) {
-            ++met[reached(most[k])][k];
-        }
-    }
-    std::pair<std::int64_t, Agreements> best{0, {}};
-    std::int64_t found_here = 0;
-    Counts hits_here{};
-    Counts met_here{};
-    for (std::size_t bin = thresholds.size(); bin > 0; --bin) {
-        found_here += found[bin];
-        for (std::size_t k = 0; k < hits_here.size(); ++k) {
-            hits_here[k] += hits[bin][k];
-            met_here[k] += met[bin][k];
-        }
-        Agreements const here = of_counts(hits_here, found_here, met_here, static_cast<std::int64_t>(rivers.size()));
-        if (best.first == 0 || here[1].f() >= best.second[1].f()) {
-            best = {thresholds[bin - 1], here};
-        }
-    }
-    return best;
-}
-
-namespace {
-
 constexpr std::int32_t no_reach = -1;
 constexpr std::int64_t listed = 1000; ///< most findings of a kind that are listed
 
@@ -484,7 +418,84 @@ Check at_least(char const* name, double value, double limit) {
     return {name, value, limit, value >= limit, Bound::at_least};
 }
 
+/// The cells with data under ridges, ascending, without duplicates.
+std::vector<std::int64_t> cells_under(RidgeLines const& ridges, Raster<float> const& dem) {
+    std::vector<std::int64_t> cells;
+    for (RidgeLine const& ridge : ridges.lines) {
+        for (Cell const c : cells_along(in_plan(ridge.line), dem.grid(), "a ridge")) {
+            if (!std::isnan(dem[c])) {
+                cells.push_back(dem.grid().index(c));
+            }
+        }
+    }
+    std::sort(cells.begin(), cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    return cells;
+}
+
 } // namespace
+
+Agreements agreement(std::vector<std::int64_t> const& found, std::vector<std::int64_t> const& rivers,
+                     Grid const& grid) {
+    return of_counts(within(found, rivers, grid), static_cast<std::int64_t>(found.size()), within(rivers, found, grid),
+                     static_cast<std::int64_t>(rivers.size()));
+}
+
+std::pair<std::int64_t, Agreements> best_threshold(Raster<std::int64_t> const& area_cells,
+                                                   std::vector<std::int64_t> const& rivers, Run const& run) {
+    auto const areas = area_cells.values();
+    std::vector<std::int64_t> const thresholds =
+        thresholds_to(areas.empty() ? 0 : *std::max_element(areas.begin(), areas.end()));
+    if (thresholds.empty()) {
+        return {0, {}};
+    }
+    // Counts thresholds up to an area; counts are stored there and accumulated from above.
+    auto const reached = [&](std::int64_t area) {
+        return static_cast<std::size_t>(std::upper_bound(thresholds.begin(), thresholds.end(), area) -
+                                        thresholds.begin());
+    };
+    std::vector<std::int64_t> found(thresholds.size() + 1, 0);
+    std::vector<Counts> hits(thresholds.size() + 1, Counts{});
+    std::vector<Counts> met(thresholds.size() + 1, Counts{});
+    Raster<std::uint8_t> const near = rings(rivers, area_cells.grid());
+    for (std::int64_t i = 0; i < area_cells.cells(); ++i) {
+        if (area_cells[i] >= thresholds.front()) {
+            std::size_t const bin = reached(area_cells[i]);
+            ++found[bin];
+            for (std::size_t k = near[i]; k < 3; ++k) {
+                ++hits[bin][k];
+            }
+        }
+    }
+    run.check();
+    for (std::int64_t const i : rivers) {
+        std::array<std::int64_t, 3> most{};
+        around(i, area_cells.grid(), [&](std::int64_t n, std::size_t ring) {
+            for (std::size_t k = ring; k < most.size(); ++k) {
+                most[k] = std::max(most[k], area_cells[n]);
+            }
+        });
+        for (std::size_t k = 0; k < most.size(); ++k) {
+            ++met[reached(most[k])][k];
+        }
+    }
+    std::pair<std::int64_t, Agreements> best{0, {}};
+    std::int64_t found_here = 0;
+    Counts hits_here{};
+    Counts met_here{};
+    for (std::size_t bin = thresholds.size(); bin > 0; --bin) {
+        found_here += found[bin];
+        for (std::size_t k = 0; k < hits_here.size(); ++k) {
+            hits_here[k] += hits[bin][k];
+            met_here[k] += met[bin][k];
+        }
+        Agreements const here = of_counts(hits_here, found_here, met_here, static_cast<std::int64_t>(rivers.size()));
+        if (best.first == 0 || here[1].f() >= best.second[1].f()) {
+            best = {thresholds[bin - 1], here};
+        }
+    }
+    return best;
+}
 
 std::vector<Check> Certificate::checks() const {
     std::vector<Check> all = {at_most("depressions", depressions), at_most("border_cells", border_cells),
@@ -514,25 +525,6 @@ Certificate certify(Raster<float> const& dem, flow::FlowField const& drainage, f
                         "measure.certify: more than 2^31 reaches");
     return Certifier(dem, drainage, reaches, claims, run).certify();
 }
-
-namespace {
-
-/// The cells with data under ridges, ascending, without duplicates.
-std::vector<std::int64_t> cells_under(RidgeLines const& ridges, Raster<float> const& dem) {
-    std::vector<std::int64_t> cells;
-    for (RidgeLine const& ridge : ridges.lines) {
-        for (Cell const c : cells_along(in_plan(ridge.line), dem.grid(), "a ridge")) {
-            if (!std::isnan(dem[c])) {
-                cells.push_back(dem.grid().index(c));
-            }
-        }
-    }
-    std::sort(cells.begin(), cells.end());
-    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-    return cells;
-}
-
-} // namespace
 
 ExtractedRidges extract_ridges(Raster<float> const& dem, RidgeLines const& ridges, Run const& run) {
     ExtractedRidges found;

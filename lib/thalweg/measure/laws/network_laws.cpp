@@ -42,6 +42,67 @@ std::optional<HortonRatio> ratio(std::optional<LineFit> const& fit, double sign)
     return fit ? std::optional(HortonRatio{portable::exp(sign * fit->slope), fit->r2, fit->points}) : std::nullopt;
 }
 
+struct MeanAndDeviation {
+    double mean = 0.0;
+    double deviation = 0.0; // of the population, not of a sample
+};
+
+// values: at least one.
+MeanAndDeviation mean_and_deviation(std::span<double const> values) {
+    auto const n = static_cast<double>(values.size());
+    CompensatedSum sum;
+    for (double const v : values) {
+        sum.add(v);
+    }
+    double const mean = sum.value() / n;
+    CompensatedSum squares;
+    for (double const v : values) {
+        squares.add((v - mean) * (v - mean));
+    }
+    return {mean, std::sqrt(squares.value() / n)};
+}
+
+/// The position on a link at a distance upstream from the end of an arc; nothing: the link is shorter than half of it.
+std::optional<Vec2> chord_up(StreamNetwork const& network, std::size_t arc, double reach_m) {
+    double left = reach_m;
+    Vec2 const foot = network.node(network.to(arc)).at;
+    Vec2 at = foot;
+    for (std::size_t a = arc;;) {
+        auto const& line = network.arc(a).line;
+        for (std::size_t i = line.size() - 1; i-- > 0;) {
+            double const step = distance(at, line[i]);
+            if (step >= left) {
+                double const share = left / step;
+                return Vec2{at.x + share * (line[i].x - at.x) - foot.x, at.y + share * (line[i].y - at.y) - foot.y};
+            }
+            left -= step;
+            at = line[i];
+        }
+        auto const& above = network.in(network.from(a));
+        if (above.size() != 1) {
+            break;
+        }
+        a = above.front();
+    }
+    return left > 0.5 * reach_m ? std::nullopt : std::optional(Vec2{at.x - foot.x, at.y - foot.y});
+}
+
+LengthSpread spread_of(std::vector<double> lengths) {
+    LengthSpread spread;
+    spread.links = static_cast<std::int64_t>(lengths.size());
+    if (lengths.empty()) {
+        return spread;
+    }
+    auto const [mean, deviation] = mean_and_deviation(lengths);
+    spread.mean_m = mean;
+    spread.cv = deviation / mean;
+    std::sort(lengths.begin(), lengths.end());
+    std::size_t const middle = lengths.size() / 2;
+    spread.median_m =
+        lengths.size() % 2 == 1 ? lengths[middle] : lengths[middle - 1] + 0.5 * (lengths[middle] - lengths[middle - 1]);
+    return spread;
+}
+
 } // namespace
 
 HortonLaws horton(StreamNetwork const& network, NetworkOrders const& orders, std::vector<double> const& ds_area_m2) {
@@ -101,55 +162,6 @@ std::optional<TokunagaLaw> tokunaga(std::vector<double> const& side_branches) {
                        fit->points};
 }
 
-namespace {
-
-struct MeanAndDeviation {
-    double mean = 0.0;
-    double deviation = 0.0; // of the population, not of a sample
-};
-
-// values: at least one.
-MeanAndDeviation mean_and_deviation(std::span<double const> values) {
-    auto const n = static_cast<double>(values.size());
-    CompensatedSum sum;
-    for (double const v : values) {
-        sum.add(v);
-    }
-    double const mean = sum.value() / n;
-    CompensatedSum squares;
-    for (double const v : values) {
-        squares.add((v - mean) * (v - mean));
-    }
-    return {mean, std::sqrt(squares.value() / n)};
-}
-
-/// The position on a link at a distance upstream from the end of an arc; nothing: the link is shorter than half of it.
-std::optional<Vec2> chord_up(StreamNetwork const& network, std::size_t arc, double reach_m) {
-    double left = reach_m;
-    Vec2 const foot = network.node(network.to(arc)).at;
-    Vec2 at = foot;
-    for (std::size_t a = arc;;) {
-        auto const& line = network.arc(a).line;
-        for (std::size_t i = line.size() - 1; i-- > 0;) {
-            double const step = distance(at, line[i]);
-            if (step >= left) {
-                double const share = left / step;
-                return Vec2{at.x + share * (line[i].x - at.x) - foot.x, at.y + share * (line[i].y - at.y) - foot.y};
-            }
-            left -= step;
-            at = line[i];
-        }
-        auto const& above = network.in(network.from(a));
-        if (above.size() != 1) {
-            break;
-        }
-        a = above.front();
-    }
-    return left > 0.5 * reach_m ? std::nullopt : std::optional(Vec2{at.x - foot.x, at.y - foot.y});
-}
-
-} // namespace
-
 JunctionAngles junction_angles(StreamNetwork const& network, double reach_m) {
     refuse_if<BadParameter>(!(reach_m > 0.0) || std::isinf(reach_m),
                             "measure.junction_angles: the reach is {} m; it must be above 0", reach_m);
@@ -181,26 +193,6 @@ JunctionAngles junction_angles(StreamNetwork const& network, double reach_m) {
     angles.std_deg = deviation;
     return angles;
 }
-
-namespace {
-
-LengthSpread spread_of(std::vector<double> lengths) {
-    LengthSpread spread;
-    spread.links = static_cast<std::int64_t>(lengths.size());
-    if (lengths.empty()) {
-        return spread;
-    }
-    auto const [mean, deviation] = mean_and_deviation(lengths);
-    spread.mean_m = mean;
-    spread.cv = deviation / mean;
-    std::sort(lengths.begin(), lengths.end());
-    std::size_t const middle = lengths.size() / 2;
-    spread.median_m =
-        lengths.size() % 2 == 1 ? lengths[middle] : lengths[middle - 1] + 0.5 * (lengths[middle] - lengths[middle - 1]);
-    return spread;
-}
-
-} // namespace
 
 LinkLengths link_lengths(StreamNetwork const& network) {
     std::vector<double> exterior;

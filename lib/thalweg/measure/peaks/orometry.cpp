@@ -200,29 +200,6 @@ bool has_all_neighbours(Raster<float> const& dem, std::int64_t cell) {
     });
 }
 
-} // namespace
-
-std::vector<Peak> prominent_peaks(Raster<float> const& dem, double least_m, Run const& run) {
-    require_in("measure.prominent_peaks", "least_m", least_m, Range::at_least(0.0));
-    Summits const summits = climb(dem, run);
-    Joining joining(dem, summits.cell);
-    for (Saddle const& saddle : saddles(dem, summits, run)) {
-        joining.join(saddle);
-    }
-    finish(dem, summits, joining);
-    std::vector<Peak> found;
-    for (PeakIndex p = 0; p < static_cast<std::int32_t>(summits.cell.size()); ++p) {
-        std::int64_t const cell = summits.cell[p];
-        if (joining.prominence(p) >= least_m && has_all_neighbours(dem, cell)) {
-            found.push_back({cell, static_cast<double>(dem[cell]), joining.prominence(p)});
-        }
-    }
-    std::sort(found.begin(), found.end(), [](Peak const& a, Peak const& b) { return a.cell < b.cell; });
-    return found;
-}
-
-namespace {
-
 constexpr std::int64_t none_yet = std::numeric_limits<std::int64_t>::max();
 
 /// The least squared distance [cells^2] to a higher cell of the ring.
@@ -241,23 +218,6 @@ std::int64_t nearest_of_ring(Raster<float> const& dem, Cell at, std::int64_t rin
     }
     return nearest;
 }
-
-} // namespace
-
-double isolation(Raster<float> const& dem, std::int64_t cell) {
-    refuse_if<BadInput>(cell < 0 || cell >= dem.cells(), "measure.isolation: cell {} is not one of the DEM's {}", cell,
-                        dem.cells());
-    Cell const at = dem.grid().at(cell);
-    std::int64_t const last = std::max({at.col, at.row, dem.width() - 1 - at.col, dem.height() - 1 - at.row});
-    std::int64_t nearest = none_yet;
-    for (std::int64_t ring = 1; ring <= last && (nearest == none_yet || ring * ring < nearest); ++ring) {
-        nearest = std::min(nearest, nearest_of_ring(dem, at, ring));
-    }
-    return nearest == none_yet ? std::numeric_limits<double>::quiet_NaN()
-                               : std::sqrt(static_cast<double>(nearest)) * dem.grid().cell_m;
-}
-
-namespace {
 
 constexpr double square_metres_a_km2 = 1e6;
 
@@ -284,6 +244,38 @@ std::vector<double> isolations(Raster<float> const& dem, std::vector<Peak> const
 }
 
 } // namespace
+
+std::vector<Peak> prominent_peaks(Raster<float> const& dem, double least_m, Run const& run) {
+    require_in("measure.prominent_peaks", "least_m", least_m, Range::at_least(0.0));
+    Summits const summits = climb(dem, run);
+    Joining joining(dem, summits.cell);
+    for (Saddle const& saddle : saddles(dem, summits, run)) {
+        joining.join(saddle);
+    }
+    finish(dem, summits, joining);
+    std::vector<Peak> found;
+    for (PeakIndex p = 0; p < static_cast<std::int32_t>(summits.cell.size()); ++p) {
+        std::int64_t const cell = summits.cell[p];
+        if (joining.prominence(p) >= least_m && has_all_neighbours(dem, cell)) {
+            found.push_back({cell, static_cast<double>(dem[cell]), joining.prominence(p)});
+        }
+    }
+    std::sort(found.begin(), found.end(), [](Peak const& a, Peak const& b) { return a.cell < b.cell; });
+    return found;
+}
+
+double isolation(Raster<float> const& dem, std::int64_t cell) {
+    refuse_if<BadInput>(cell < 0 || cell >= dem.cells(), "measure.isolation: cell {} is not one of the DEM's {}", cell,
+                        dem.cells());
+    Cell const at = dem.grid().at(cell);
+    std::int64_t const last = std::max({at.col, at.row, dem.width() - 1 - at.col, dem.height() - 1 - at.row});
+    std::int64_t nearest = none_yet;
+    for (std::int64_t ring = 1; ring <= last && (nearest == none_yet || ring * ring < nearest); ++ring) {
+        nearest = std::min(nearest, nearest_of_ring(dem, at, ring));
+    }
+    return nearest == none_yet ? std::numeric_limits<double>::quiet_NaN()
+                               : std::sqrt(static_cast<double>(nearest)) * dem.grid().cell_m;
+}
 
 Orometry orometry(Raster<float> const& dem, OrometryParams const& params, Run const& run) {
     std::vector<Peak> const peaks = prominent_peaks(dem, params.least_prominence_m, run);

@@ -28,51 +28,6 @@ double density(flow::FlowField const& drainage, std::int64_t cells, std::int64_t
     return length.value() / (static_cast<double>(cells) * cell_m * cell_m);
 }
 
-} // namespace
-
-Relief relief(Raster<float> const& dem, flow::FlowField const& drainage, Statistics const& statistics,
-              ReliefParams const& params, Run const& run) {
-    refuse_if<BadInput>(statistics.cells + statistics.nodata != dem.cells(),
-                        "measure.relief: statistics of {} cells for a DEM of {}; measure this DEM",
-                        statistics.cells + statistics.nodata, dem.cells());
-    require_in("measure.relief", "support_cells", params.support_cells, Range::at_least(1));
-    Relief found;
-    found.slope_area = slope_area(dem, drainage, params.slope_area, run);
-    found.chi = chi(dem, drainage, params.chi, run);
-    found.slopes = slopes(dem, run);
-    found.extremes = local_extremes(dem, run);
-    double const range = statistics.max.z - statistics.min.z;
-    found.hypsometric_integral = range > 0.0 ? (statistics.mean - statistics.min.z) / range : 0.5;
-    found.forms = geomorphons(dem, params.geomorphons, run).shares;
-    auto const of = [&](Form form) { return share(found.forms, form); };
-    double const noses = of(Form::peak) + of(Form::ridge) + of(Form::shoulder) + of(Form::spur);
-    double const hollows = of(Form::hollow) + of(Form::footslope) + of(Form::valley) + of(Form::pit);
-    found.valleys_over_ridges = of(Form::valley) / of(Form::ridge);
-    found.hollows_over_noses = hollows / noses;
-    found.length_x = statistics.lx.cells / static_cast<double>(dem.width());
-    found.length_y = statistics.ly.cells / static_cast<double>(dem.height());
-    found.support_cells = params.support_cells;
-    found.drainage_density = density(drainage, statistics.cells, params.support_cells);
-    found.scaled_density =
-        found.drainage_density * std::sqrt(static_cast<double>(params.support_cells)) * dem.grid().cell_m;
-    found.slope_area_ratio = slope_area_ratio(dem, drainage, params.slope_area_ratio, run);
-    found.texture = gradient_texture(dem, params.texture, run);
-    found.straight = straight_channels(drainage, params.straight, run);
-    found.level_patch = level_patch(dem, params.level_patch, run);
-    found.orometry = orometry(dem, params.orometry, run);
-    return found;
-}
-
-double total_variation(std::array<double, form_count> const& a, std::array<double, form_count> const& b) {
-    double sum = 0.0;
-    for (std::size_t f = 0; f < form_count; ++f) {
-        sum += std::fabs(a[f] - b[f]);
-    }
-    return 0.5 * sum;
-}
-
-namespace {
-
 constexpr double wide = 1.5;   // regions differ more than the two reference DEMs
 constexpr double wider = 2.0;  // finer textures are common
 constexpr double widest = 5.0; // one plain is enough to change it
@@ -142,7 +97,64 @@ constexpr std::array<ReliefMetric, relief_metric_count> figures = {{
 
 #include <thalweg/measure/relief/internal/reference_dems.inc>
 
+constexpr std::array<NaturalRange, 9> ranges = {{
+    {"bifurcation", 3.0, 5.0, "Strahler 1964: basins whose pattern the rock does not distort"},
+    {"length", 1.5, 3.5, "Rodríguez-Iturbe and Valdés 1979, after Smart 1972: natural basins"},
+    {"area", 3.0, 6.0, "Rodríguez-Iturbe and Valdés 1979, after Smart 1972 and Schumm 1956: natural basins"},
+    {"tokunaga_a", 1.0, 1.5, "Dodds and Rothman 1999: compiled from maps and DEMs, after Tokunaga 1978"},
+    {"tokunaga_c", 2.0, 3.0, "Dodds and Rothman 1999: compiled from maps and DEMs, after Tokunaga 1978"},
+    {"hack", 0.52, 0.60, "Rigon et al. 1996: DEMs; Hack 1957: 0.6, Shenandoah Valley"},
+    {"concavity", 0.3, 0.6,
+     "Whipple and Tucker 1999; Gailleton et al. 2021: median 0.425, quartiles 0.225 and 0.575 of mountain basins"},
+    {"drainage_density", 0.55, 374.0,
+     "Langbein 1947: from 0.55 to 2.09 in humid lands, on maps; Schumm 1956: 374 in badlands, surveyed"},
+    {"junction_angle", 45.0, 72.0,
+     "Seybold, Rothman and Kirchner 2017: arid to humid, a million junctions of the United States; Devauchelle et al. "
+     "2012: 72 where springs cut the valleys"},
+}};
+
 } // namespace
+
+Relief relief(Raster<float> const& dem, flow::FlowField const& drainage, Statistics const& statistics,
+              ReliefParams const& params, Run const& run) {
+    refuse_if<BadInput>(statistics.cells + statistics.nodata != dem.cells(),
+                        "measure.relief: statistics of {} cells for a DEM of {}; measure this DEM",
+                        statistics.cells + statistics.nodata, dem.cells());
+    require_in("measure.relief", "support_cells", params.support_cells, Range::at_least(1));
+    Relief found;
+    found.slope_area = slope_area(dem, drainage, params.slope_area, run);
+    found.chi = chi(dem, drainage, params.chi, run);
+    found.slopes = slopes(dem, run);
+    found.extremes = local_extremes(dem, run);
+    double const range = statistics.max.z - statistics.min.z;
+    found.hypsometric_integral = range > 0.0 ? (statistics.mean - statistics.min.z) / range : 0.5;
+    found.forms = geomorphons(dem, params.geomorphons, run).shares;
+    auto const of = [&](Form form) { return share(found.forms, form); };
+    double const noses = of(Form::peak) + of(Form::ridge) + of(Form::shoulder) + of(Form::spur);
+    double const hollows = of(Form::hollow) + of(Form::footslope) + of(Form::valley) + of(Form::pit);
+    found.valleys_over_ridges = of(Form::valley) / of(Form::ridge);
+    found.hollows_over_noses = hollows / noses;
+    found.length_x = statistics.lx.cells / static_cast<double>(dem.width());
+    found.length_y = statistics.ly.cells / static_cast<double>(dem.height());
+    found.support_cells = params.support_cells;
+    found.drainage_density = density(drainage, statistics.cells, params.support_cells);
+    found.scaled_density =
+        found.drainage_density * std::sqrt(static_cast<double>(params.support_cells)) * dem.grid().cell_m;
+    found.slope_area_ratio = slope_area_ratio(dem, drainage, params.slope_area_ratio, run);
+    found.texture = gradient_texture(dem, params.texture, run);
+    found.straight = straight_channels(drainage, params.straight, run);
+    found.level_patch = level_patch(dem, params.level_patch, run);
+    found.orometry = orometry(dem, params.orometry, run);
+    return found;
+}
+
+double total_variation(std::array<double, form_count> const& a, std::array<double, form_count> const& b) {
+    double sum = 0.0;
+    for (std::size_t f = 0; f < form_count; ++f) {
+        sum += std::fabs(a[f] - b[f]);
+    }
+    return 0.5 * sum;
+}
 
 std::array<ReliefMetric, relief_metric_count> const& relief_metrics() {
     return figures;
@@ -171,26 +183,6 @@ ReliefRange relief_range(std::size_t figure) {
     return {metric.judges == Judges::large_values ? 0.0 : least->figures[figure] / metric.tolerance,
             greatest->figures[figure] * metric.tolerance};
 }
-
-namespace {
-
-constexpr std::array<NaturalRange, 9> ranges = {{
-    {"bifurcation", 3.0, 5.0, "Strahler 1964: basins whose pattern the rock does not distort"},
-    {"length", 1.5, 3.5, "Rodríguez-Iturbe and Valdés 1979, after Smart 1972: natural basins"},
-    {"area", 3.0, 6.0, "Rodríguez-Iturbe and Valdés 1979, after Smart 1972 and Schumm 1956: natural basins"},
-    {"tokunaga_a", 1.0, 1.5, "Dodds and Rothman 1999: compiled from maps and DEMs, after Tokunaga 1978"},
-    {"tokunaga_c", 2.0, 3.0, "Dodds and Rothman 1999: compiled from maps and DEMs, after Tokunaga 1978"},
-    {"hack", 0.52, 0.60, "Rigon et al. 1996: DEMs; Hack 1957: 0.6, Shenandoah Valley"},
-    {"concavity", 0.3, 0.6,
-     "Whipple and Tucker 1999; Gailleton et al. 2021: median 0.425, quartiles 0.225 and 0.575 of mountain basins"},
-    {"drainage_density", 0.55, 374.0,
-     "Langbein 1947: from 0.55 to 2.09 in humid lands, on maps; Schumm 1956: 374 in badlands, surveyed"},
-    {"junction_angle", 45.0, 72.0,
-     "Seybold, Rothman and Kirchner 2017: arid to humid, a million junctions of the United States; Devauchelle et al. "
-     "2012: 72 where springs cut the valleys"},
-}};
-
-} // namespace
 
 std::span<NaturalRange const> natural_ranges() {
     return ranges;

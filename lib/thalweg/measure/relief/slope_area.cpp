@@ -61,31 +61,6 @@ std::map<std::int64_t, Reach> reaches_by_area(Raster<float> const& dem, flow::Fl
     return reaches;
 }
 
-} // namespace
-
-std::optional<PowerLaw> slope_area(Raster<float> const& dem, flow::FlowField const& drainage,
-                                   SlopeAreaParams const& params, Run const& run) {
-    check(params, dem, drainage);
-    PowerLaw law;
-    std::vector<Vec2> line;
-    std::vector<double> weights;
-    for (auto const& [number, reach] : reaches_by_area(dem, drainage, params, run)) {
-        double const slope = reach.drop_m.value() / reach.way_m.value();
-        if (reach.cells < params.least_places || !(slope > 0.0)) {
-            law.left_out += reach.cells;
-            continue;
-        }
-        double const log_area = reach.log_area.value() / static_cast<double>(reach.cells);
-        line.push_back({log_area, portable::log(slope)});
-        weights.push_back(std::sqrt(static_cast<double>(reach.cells)));
-        law.bins.push_back({portable::exp(log_area), slope, reach.cells});
-        law.places += reach.cells;
-    }
-    return with_line(std::move(law), fit_line(line, weights), params.least_bins);
-}
-
-namespace {
-
 void check(ChiParams const& params, Raster<float> const& dem, flow::FlowField const& drainage) {
     constexpr char const* self = "measure.chi";
     require_in(self, "theta", params.theta, Range::between(0.0, 2.0));
@@ -160,7 +135,51 @@ double spread(std::vector<Vec2> const& stem) {
     return squares.value();
 }
 
+struct Tangents {
+    CompensatedSum sum;
+    std::int64_t cells = 0;
+
+    void add(double tangent) {
+        sum.add(tangent);
+        ++cells;
+    }
+    double mean() const {
+        return cells > 0 ? sum.value() / static_cast<double>(cells) : std::numeric_limits<double>::quiet_NaN();
+    }
+};
+
+void check(SlopeAreaRatioParams const& params, Raster<float> const& dem, flow::FlowField const& drainage) {
+    constexpr char const* self = "measure.slope_area_ratio";
+    require_in(self, "hillslope_from", params.hillslope_from, Range::at_least(1));
+    require_in(self, "hillslope_to", params.hillslope_to, Range::above(static_cast<double>(params.hillslope_from)));
+    require_in(self, "channel_from", params.channel_from, Range::at_least(1));
+    require_in(self, "channel_to", params.channel_to, Range::above(static_cast<double>(params.channel_from)));
+    require_same_grid(dem.grid(), drainage.direction.grid(), "measure.slope_area_ratio: the DEM and its drainage",
+                      "drain this DEM");
+}
+
 } // namespace
+
+std::optional<PowerLaw> slope_area(Raster<float> const& dem, flow::FlowField const& drainage,
+                                   SlopeAreaParams const& params, Run const& run) {
+    check(params, dem, drainage);
+    PowerLaw law;
+    std::vector<Vec2> line;
+    std::vector<double> weights;
+    for (auto const& [number, reach] : reaches_by_area(dem, drainage, params, run)) {
+        double const slope = reach.drop_m.value() / reach.way_m.value();
+        if (reach.cells < params.least_places || !(slope > 0.0)) {
+            law.left_out += reach.cells;
+            continue;
+        }
+        double const log_area = reach.log_area.value() / static_cast<double>(reach.cells);
+        line.push_back({log_area, portable::log(slope)});
+        weights.push_back(std::sqrt(static_cast<double>(reach.cells)));
+        law.bins.push_back({portable::exp(log_area), slope, reach.cells});
+        law.places += reach.cells;
+    }
+    return with_line(std::move(law), fit_line(line, weights), params.least_bins);
+}
 
 std::optional<Chi> chi(Raster<float> const& dem, flow::FlowField const& drainage, ChiParams const& params,
                        Run const& run) {
@@ -196,33 +215,6 @@ std::optional<Chi> chi(Raster<float> const& dem, flow::FlowField const& drainage
     found.r2 = explained.value() / all.value();
     return found;
 }
-
-namespace {
-
-struct Tangents {
-    CompensatedSum sum;
-    std::int64_t cells = 0;
-
-    void add(double tangent) {
-        sum.add(tangent);
-        ++cells;
-    }
-    double mean() const {
-        return cells > 0 ? sum.value() / static_cast<double>(cells) : std::numeric_limits<double>::quiet_NaN();
-    }
-};
-
-void check(SlopeAreaRatioParams const& params, Raster<float> const& dem, flow::FlowField const& drainage) {
-    constexpr char const* self = "measure.slope_area_ratio";
-    require_in(self, "hillslope_from", params.hillslope_from, Range::at_least(1));
-    require_in(self, "hillslope_to", params.hillslope_to, Range::above(static_cast<double>(params.hillslope_from)));
-    require_in(self, "channel_from", params.channel_from, Range::at_least(1));
-    require_in(self, "channel_to", params.channel_to, Range::above(static_cast<double>(params.channel_from)));
-    require_same_grid(dem.grid(), drainage.direction.grid(), "measure.slope_area_ratio: the DEM and its drainage",
-                      "drain this DEM");
-}
-
-} // namespace
 
 double slope_area_ratio(Raster<float> const& dem, flow::FlowField const& drainage, SlopeAreaRatioParams const& params,
                         Run const& run) {

@@ -121,6 +121,68 @@ Block total_of(std::vector<Block> const& blocks) {
     return total;
 }
 
+enum class Ground : std::uint8_t { none, steep, gentle };
+
+Ground ground_of(Raster<float> const& dem, std::int64_t i, std::array<std::int64_t, 8> const& to, double tangent) {
+    bool const lake = std::all_of(to.begin(), to.end(), [&](std::int64_t step) { return dem[i + step] == dem[i]; });
+    double const squared = horn_squared(dem, i, to);
+    if (lake || std::isnan(squared) || std::isnan(dem[i])) {
+        return Ground::none;
+    }
+    return squared < tangent * tangent ? Ground::gentle : Ground::steep;
+}
+
+Raster<Ground> grounds(Raster<float> const& dem, double below_deg, Run const& run) {
+    Raster<Ground> found(dem.grid(), Ground::none);
+    auto const offsets = d8_offsets(dem.grid());
+    double const angle = below_deg * (portable::pi / 180.0);
+    double const tangent = portable::sin(angle) / portable::cos(angle);
+    parallel_ranges(run, std::max<std::int64_t>(dem.height() - 2, 0), 16, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t r = begin + 1; r < end + 1; ++r) {
+            run.check();
+            for (std::int64_t c = 1; c + 1 < dem.width(); ++c) {
+                found[Cell{c, r}] = ground_of(dem, dem.grid().index({c, r}), offsets, tangent);
+            }
+        }
+    });
+    return found;
+}
+
+/// Counts the patch of a cell and marks it as steep, so that it is counted once. Border cells are never in a patch: no
+/// neighbour is off the grid.
+std::int64_t take_patch(Raster<Ground>& ground, std::int64_t start, std::array<std::int64_t, 8> const& offsets,
+                        std::vector<std::int64_t>& open) {
+    std::int64_t cells = 0;
+    open.assign(1, start);
+    ground[start] = Ground::steep;
+    while (!open.empty()) {
+        std::int64_t const cell = open.back();
+        open.pop_back();
+        ++cells;
+        for (std::int64_t const step : offsets) {
+            if (ground[cell + step] == Ground::gentle) {
+                ground[cell + step] = Ground::steep;
+                open.push_back(cell + step);
+            }
+        }
+    }
+    return cells;
+}
+
+double lowest_of_second_ring(Raster<float> const& dem, Cell at) {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (std::int64_t row = -2; row <= 2; ++row) {
+        for (std::int64_t col = -2; col <= 2; ++col) {
+            Cell const there{at.col + col, at.row + row};
+            bool const in_ring = std::max(std::abs(row), std::abs(col)) == 2;
+            if (in_ring && dem.grid().contains(there) && !std::isnan(dem[there])) {
+                lowest = std::min(lowest, static_cast<double>(dem[there]));
+            }
+        }
+    }
+    return lowest;
+}
+
 } // namespace
 
 Slopes slopes(Raster<float> const& dem, Run const& run) {
@@ -173,58 +235,6 @@ Slopes slopes(Raster<float> const& dem, Run const& run) {
     return found;
 }
 
-namespace {
-
-enum class Ground : std::uint8_t { none, steep, gentle };
-
-Ground ground_of(Raster<float> const& dem, std::int64_t i, std::array<std::int64_t, 8> const& to, double tangent) {
-    bool const lake = std::all_of(to.begin(), to.end(), [&](std::int64_t step) { return dem[i + step] == dem[i]; });
-    double const squared = horn_squared(dem, i, to);
-    if (lake || std::isnan(squared) || std::isnan(dem[i])) {
-        return Ground::none;
-    }
-    return squared < tangent * tangent ? Ground::gentle : Ground::steep;
-}
-
-Raster<Ground> grounds(Raster<float> const& dem, double below_deg, Run const& run) {
-    Raster<Ground> found(dem.grid(), Ground::none);
-    auto const offsets = d8_offsets(dem.grid());
-    double const angle = below_deg * (portable::pi / 180.0);
-    double const tangent = portable::sin(angle) / portable::cos(angle);
-    parallel_ranges(run, std::max<std::int64_t>(dem.height() - 2, 0), 16, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t r = begin + 1; r < end + 1; ++r) {
-            run.check();
-            for (std::int64_t c = 1; c + 1 < dem.width(); ++c) {
-                found[Cell{c, r}] = ground_of(dem, dem.grid().index({c, r}), offsets, tangent);
-            }
-        }
-    });
-    return found;
-}
-
-/// Counts the patch of a cell and marks it as steep, so that it is counted once. Border cells are never in a patch: no
-/// neighbour is off the grid.
-std::int64_t take_patch(Raster<Ground>& ground, std::int64_t start, std::array<std::int64_t, 8> const& offsets,
-                        std::vector<std::int64_t>& open) {
-    std::int64_t cells = 0;
-    open.assign(1, start);
-    ground[start] = Ground::steep;
-    while (!open.empty()) {
-        std::int64_t const cell = open.back();
-        open.pop_back();
-        ++cells;
-        for (std::int64_t const step : offsets) {
-            if (ground[cell + step] == Ground::gentle) {
-                ground[cell + step] = Ground::steep;
-                open.push_back(cell + step);
-            }
-        }
-    }
-    return cells;
-}
-
-} // namespace
-
 LevelPatch level_patch(Raster<float> const& dem, LevelPatchParams const& params, Run const& run) {
     require_in("measure.level_patch", "below_deg", params.below_deg, Range::inside(0.0, 90.0));
     refuse_if<BadInput>(dem.cells() > 0 && !(dem.grid().cell_m > 0.0),
@@ -247,24 +257,6 @@ LevelPatch level_patch(Raster<float> const& dem, LevelPatchParams const& params,
     }
     return found;
 }
-
-namespace {
-
-double lowest_of_second_ring(Raster<float> const& dem, Cell at) {
-    double lowest = std::numeric_limits<double>::infinity();
-    for (std::int64_t row = -2; row <= 2; ++row) {
-        for (std::int64_t col = -2; col <= 2; ++col) {
-            Cell const there{at.col + col, at.row + row};
-            bool const in_ring = std::max(std::abs(row), std::abs(col)) == 2;
-            if (in_ring && dem.grid().contains(there) && !std::isnan(dem[there])) {
-                lowest = std::min(lowest, static_cast<double>(dem[there]));
-            }
-        }
-    }
-    return lowest;
-}
-
-} // namespace
 
 std::vector<std::int64_t> perched(Raster<float> const& dem, std::span<std::int64_t const> cells, double rise_m) {
     require_in("measure.perched", "rise_m", rise_m, Range::at_least(0.0));

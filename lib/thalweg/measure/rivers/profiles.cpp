@@ -230,30 +230,6 @@ void require_chi(RiverProfiles const& rivers, std::vector<double> const& chi, ch
                         rivers.size());
 }
 
-} // namespace
-
-RiverProfiles river_profiles(flow::Reaches const& reaches, Raster<float> const& dem, flow::FlowField const& drainage,
-                             Run const& run) {
-    require_same_grid(dem.grid(), drainage.grid(), "measure.river_profiles: the DEM and its drainage",
-                      "drain this DEM");
-    return Builder(reaches, dem, drainage, run).take();
-}
-
-std::vector<double> chi_along(RiverProfiles const& rivers, double theta) {
-    require_in("measure.chi_along", "theta", theta, Range::between(0.0, 2.0));
-    require_profiles(rivers, "measure.chi_along");
-    std::vector<double> chi(rivers.size(), 0.0);
-    for (std::size_t i = 0; i < rivers.size(); ++i) {
-        if (rivers.receiver[i] >= 0) {
-            chi[i] = chi[static_cast<std::size_t>(rivers.receiver[i])] +
-                     rivers.step_m[i] * portable::pow(rivers.area_m2[i], -theta);
-        }
-    }
-    return chi;
-}
-
-namespace {
-
 /// Sums for the lines of height against chi, one for each basin.
 struct BasinMoments {
     double n = 0.0;
@@ -297,7 +273,92 @@ double collinearity(RiverProfiles const& rivers, std::vector<double> const& chi)
     return all.value() > 0.0 ? explained.value() / all.value() : nan;
 }
 
+/// Reaches without cells of their own, in those of their neighbours, carry what flows into them.
+void pass_through(std::vector<flow::ReachId> const& ds, std::vector<ReachProfile>& profiles) {
+    std::vector<std::int64_t> missing(ds.size(), 0); // inflows that have not been seen
+    for (flow::ReachId const below : ds) {
+        missing[static_cast<std::size_t>(below < 0 ? 0 : below)] += below < 0 ? 0 : 1;
+    }
+    for (std::size_t source = 0; source < ds.size(); ++source) {
+        for (auto a = static_cast<flow::ReachId>(source); a >= 0 && missing[static_cast<std::size_t>(a)] == 0;) {
+            auto const here = static_cast<std::size_t>(a);
+            missing[here] = -1; // done
+            a = ds[here];
+            if (a < 0) {
+                break;
+            }
+            ReachProfile const& from = profiles[here];
+            ReachProfile& to = profiles[static_cast<std::size_t>(a)];
+            if (to.cells == 0) {
+                to.area_m2 += from.area_m2;
+                to.is_cut = to.is_cut || from.is_cut;
+                to.z_up_m = to.z_down_m = from.z_down_m;
+                to.chi_up = to.chi_down = from.chi_down;
+            }
+            --missing[static_cast<std::size_t>(a)];
+        }
+    }
+}
+
+/// The place of a stem that stands highest above its lower convex hull.
+struct Highest {
+    std::size_t at = 0; ///< in the stem
+    double above_m = 0.0;
+};
+
+/// \param line chi and height, chi not descending
+Highest highest_above_hull(std::vector<Vec2> const& line, std::size_t begin, std::size_t end) {
+    std::vector<std::size_t> hull;
+    for (std::size_t i = begin; i <= end; ++i) {
+        while (hull.size() >= 2) {
+            Vec2 const a = line[hull[hull.size() - 2]];
+            Vec2 const b = line[hull.back()];
+            if ((b.x - a.x) * (line[i].y - a.y) - (b.y - a.y) * (line[i].x - a.x) > 0.0) {
+                break; // b lies below the chord
+            }
+            hull.pop_back();
+        }
+        hull.push_back(i);
+    }
+    Highest highest{begin, 0.0};
+    for (std::size_t h = 1; h < hull.size(); ++h) {
+        Vec2 const a = line[hull[h - 1]];
+        Vec2 const b = line[hull[h]];
+        for (std::size_t i = hull[h - 1] + 1; i < hull[h]; ++i) {
+            double const chord = b.x > a.x ? a.y + (b.y - a.y) * (line[i].x - a.x) / (b.x - a.x) : a.y;
+            if (line[i].y - chord > highest.above_m) {
+                highest = {i, line[i].y - chord};
+            }
+        }
+    }
+    return highest;
+}
+
+double slope_between(Vec2 a, Vec2 b) {
+    return b.x > a.x ? (b.y - a.y) / (b.x - a.x) : nan;
+}
+
 } // namespace
+
+RiverProfiles river_profiles(flow::Reaches const& reaches, Raster<float> const& dem, flow::FlowField const& drainage,
+                             Run const& run) {
+    require_same_grid(dem.grid(), drainage.grid(), "measure.river_profiles: the DEM and its drainage",
+                      "drain this DEM");
+    return Builder(reaches, dem, drainage, run).take();
+}
+
+std::vector<double> chi_along(RiverProfiles const& rivers, double theta) {
+    require_in("measure.chi_along", "theta", theta, Range::between(0.0, 2.0));
+    require_profiles(rivers, "measure.chi_along");
+    std::vector<double> chi(rivers.size(), 0.0);
+    for (std::size_t i = 0; i < rivers.size(); ++i) {
+        if (rivers.receiver[i] >= 0) {
+            chi[i] = chi[static_cast<std::size_t>(rivers.receiver[i])] +
+                     rivers.step_m[i] * portable::pow(rivers.area_m2[i], -theta);
+        }
+    }
+    return chi;
+}
 
 std::optional<FittedTheta> fit_theta(RiverProfiles const& rivers, Run const& run) {
     constexpr double fine = 0.005;
@@ -361,37 +422,6 @@ std::vector<double> steepness_along(RiverProfiles const& rivers, std::vector<dou
     return steepness;
 }
 
-namespace {
-
-/// Reaches without cells of their own, in those of their neighbours, carry what flows into them.
-void pass_through(std::vector<flow::ReachId> const& ds, std::vector<ReachProfile>& profiles) {
-    std::vector<std::int64_t> missing(ds.size(), 0); // inflows that have not been seen
-    for (flow::ReachId const below : ds) {
-        missing[static_cast<std::size_t>(below < 0 ? 0 : below)] += below < 0 ? 0 : 1;
-    }
-    for (std::size_t source = 0; source < ds.size(); ++source) {
-        for (auto a = static_cast<flow::ReachId>(source); a >= 0 && missing[static_cast<std::size_t>(a)] == 0;) {
-            auto const here = static_cast<std::size_t>(a);
-            missing[here] = -1; // done
-            a = ds[here];
-            if (a < 0) {
-                break;
-            }
-            ReachProfile const& from = profiles[here];
-            ReachProfile& to = profiles[static_cast<std::size_t>(a)];
-            if (to.cells == 0) {
-                to.area_m2 += from.area_m2;
-                to.is_cut = to.is_cut || from.is_cut;
-                to.z_up_m = to.z_down_m = from.z_down_m;
-                to.chi_up = to.chi_down = from.chi_down;
-            }
-            --missing[static_cast<std::size_t>(a)];
-        }
-    }
-}
-
-} // namespace
-
 std::vector<ReachProfile> reach_profiles(RiverProfiles const& rivers, std::vector<double> const& chi) {
     require_chi(rivers, chi, "measure.reach_profiles");
     std::vector<ReachProfile> profiles(rivers.ds.size(), ReachProfile{0, 0.0, nan, nan, nan, nan});
@@ -422,48 +452,6 @@ std::vector<ReachProfile> reach_profiles(RiverProfiles const& rivers, std::vecto
     pass_through(rivers.ds, profiles);
     return profiles;
 }
-
-namespace {
-
-/// The place of a stem that stands highest above its lower convex hull.
-struct Highest {
-    std::size_t at = 0; ///< in the stem
-    double above_m = 0.0;
-};
-
-/// \param line chi and height, chi not descending
-Highest highest_above_hull(std::vector<Vec2> const& line, std::size_t begin, std::size_t end) {
-    std::vector<std::size_t> hull;
-    for (std::size_t i = begin; i <= end; ++i) {
-        while (hull.size() >= 2) {
-            Vec2 const a = line[hull[hull.size() - 2]];
-            Vec2 const b = line[hull.back()];
-            if ((b.x - a.x) * (line[i].y - a.y) - (b.y - a.y) * (line[i].x - a.x) > 0.0) {
-                break; // b lies below the chord
-            }
-            hull.pop_back();
-        }
-        hull.push_back(i);
-    }
-    Highest highest{begin, 0.0};
-    for (std::size_t h = 1; h < hull.size(); ++h) {
-        Vec2 const a = line[hull[h - 1]];
-        Vec2 const b = line[hull[h]];
-        for (std::size_t i = hull[h - 1] + 1; i < hull[h]; ++i) {
-            double const chord = b.x > a.x ? a.y + (b.y - a.y) * (line[i].x - a.x) / (b.x - a.x) : a.y;
-            if (line[i].y - chord > highest.above_m) {
-                highest = {i, line[i].y - chord};
-            }
-        }
-    }
-    return highest;
-}
-
-double slope_between(Vec2 a, Vec2 b) {
-    return b.x > a.x ? (b.y - a.y) / (b.x - a.x) : nan;
-}
-
-} // namespace
 
 std::vector<Knickpoint> knickpoints(RiverProfiles const& rivers, std::vector<double> const& chi,
                                     KnickpointParams const& params, Run const& run) {

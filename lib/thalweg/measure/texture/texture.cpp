@@ -233,28 +233,6 @@ double anisotropy(UnitGradients const& unit, double window_m, Run const& run) {
     return sum.mean();
 }
 
-} // namespace
-
-GradientTexture gradient_texture(Raster<float> const& dem, GradientTextureParams const& params, Run const& run) {
-    require_in("measure.gradient_texture", "window_m", params.window_m, Range::above(0.0));
-    GradientTexture found;
-    found.correlation.fill(too_small);
-    if (dem.width() < 2 || dem.height() < 2) {
-        return found;
-    }
-    refuse_if<BadInput>(!(dem.grid().cell_m > 0.0),
-                        "measure.gradient_texture: the DEM's cells have a side of {} m; it must be greater than 0",
-                        dem.grid().cell_m);
-    UnitGradients const unit = unit_gradients(dem, run);
-    for (std::size_t lag = 0; lag < texture_lags_m.size(); ++lag) {
-        found.correlation[lag] = correlation(unit, texture_lags_m[lag], run);
-    }
-    found.anisotropy = anisotropy(unit, params.window_m, run);
-    return found;
-}
-
-namespace {
-
 struct Channels {
     flow::FlowField const& drainage;
     StraightChannelsParams const& params;
@@ -338,6 +316,24 @@ RowOfReaches row_of(Channels const& channels, std::int64_t r) {
 }
 
 } // namespace
+
+GradientTexture gradient_texture(Raster<float> const& dem, GradientTextureParams const& params, Run const& run) {
+    require_in("measure.gradient_texture", "window_m", params.window_m, Range::above(0.0));
+    GradientTexture found;
+    found.correlation.fill(too_small);
+    if (dem.width() < 2 || dem.height() < 2) {
+        return found;
+    }
+    refuse_if<BadInput>(!(dem.grid().cell_m > 0.0),
+                        "measure.gradient_texture: the DEM's cells have a side of {} m; it must be greater than 0",
+                        dem.grid().cell_m);
+    UnitGradients const unit = unit_gradients(dem, run);
+    for (std::size_t lag = 0; lag < texture_lags_m.size(); ++lag) {
+        found.correlation[lag] = correlation(unit, texture_lags_m[lag], run);
+    }
+    found.anisotropy = anisotropy(unit, params.window_m, run);
+    return found;
+}
 
 StraightChannels straight_channels(flow::FlowField const& drainage, StraightChannelsParams const& params,
                                    Run const& run) {

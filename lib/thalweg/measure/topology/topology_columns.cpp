@@ -178,22 +178,6 @@ void check_basins(NetworkFile const& file, Graph const& g, std::size_t junctions
     }
 }
 
-} // namespace
-
-void check_numbers(NetworkFile const& file, Joints const& joints, Graph const& meant,
-                   std::vector<char> const& ambiguous, Findings& findings) {
-    std::size_t const junctions = joints.junctions.ids.size();
-    if (file.says.downstream) {
-        check_downstream(file, meant, ambiguous, findings);
-    }
-    check_orders(file, meant, junctions, findings);
-    if (file.says.basin) {
-        check_basins(file, meant, junctions, findings);
-    }
-}
-
-namespace {
-
 // The columns of the network schema that follow from lines and trees.
 
 constexpr double of_lengths = 1e-6; // [m] per vertex: files round coordinates to this
@@ -493,6 +477,18 @@ private:
 };
 
 } // namespace
+
+void check_numbers(NetworkFile const& file, Joints const& joints, Graph const& meant,
+                   std::vector<char> const& ambiguous, Findings& findings) {
+    std::size_t const junctions = joints.junctions.ids.size();
+    if (file.says.downstream) {
+        check_downstream(file, meant, ambiguous, findings);
+    }
+    check_orders(file, meant, junctions, findings);
+    if (file.says.basin) {
+        check_basins(file, meant, junctions, findings);
+    }
+}
 
 void check_columns(NetworkFile const& file, Joints const& joints, Graph const& meant, Findings& findings) {
     Columns(file, joints, meant, findings).check();

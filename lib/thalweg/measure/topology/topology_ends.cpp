@@ -195,74 +195,6 @@ std::vector<char> turned_by_links(NetworkFile const& file, std::vector<Ends> con
     return turned;
 }
 
-} // namespace
-
-std::size_t Junctions::of(std::int64_t id) const {
-    return static_cast<std::size_t>(std::lower_bound(ids.begin(), ids.end(), id) - ids.begin());
-}
-
-Joints check_ends(NetworkFile const& file, Outlines const& plans, std::vector<char> const& left_out,
-                  std::vector<char> const& ambiguous, Findings& findings) {
-    std::size_t const arcs = file.arcs.size();
-    Joints joints{junctions_of(file), {}, {}, std::vector<std::array<char, 2>>(arcs, {0, 0}), std::vector<char>(arcs)};
-    joints.said.reserve(arcs);
-    for (FileArc const& arc : file.arcs) {
-        joints.said.push_back({joints.junctions.of(arc.from_node), joints.junctions.of(arc.to_node)});
-    }
-    joints.meant = joints.said;
-    EndCheck check(file, joints, findings);
-    for (std::size_t a = 0; a < arcs; ++a) {
-        check.look(a, !plans[a].empty());
-    }
-    auto const turned = turned_by_links(file, joints.meant, left_out, ambiguous);
-    for (std::size_t a = 0; a < arcs; ++a) {
-        if (left_out[a] == 0 && (turned[a] != 0 || joints.against[a] != 0)) {
-            FileArc const& arc = file.arcs[a];
-            findings.push_back({"wrong_direction", number_of(file, arc), start_of(arc), length_of(plans[a]),
-                                turned[a] == 0
-                                    ? fmt::format("arc {}: is drawn from its to_node {} to its from_node {}",
-                                                  number_of(file, arc), arc.to_node, arc.from_node)
-                                    : fmt::format("arc {}: is said to run from node {} to {}, against the arcs that "
-                                                  "ds_arc links it to",
-                                                  number_of(file, arc), arc.from_node, arc.to_node)});
-        }
-        if (turned[a] != 0) {
-            std::swap(joints.said[a][0], joints.said[a][1]);
-            std::swap(joints.meant[a][0], joints.meant[a][1]);
-            std::swap(joints.faulty[a][0], joints.faulty[a][1]);
-            joints.against[a] = joints.against[a] == 0 ? 1 : 0;
-        }
-    }
-    return joints;
-}
-
-void check_heights(NetworkFile const& file, Outlines const& plans, std::vector<char> const& left_out,
-                   Joints const& joints, Findings& findings) {
-    for (std::size_t a = 0; a < file.arcs.size(); ++a) {
-        if (!file.says.heights || left_out[a] != 0 || plans[a].empty()) {
-            continue;
-        }
-        auto const& line = file.arcs[a].line;
-        double greatest_rise = 0.0;
-        std::size_t rises_at = 0;
-        for (std::size_t i = 1; i < line.size(); ++i) {
-            double const rise = joints.against[a] == 0 ? line[i].z - line[i - 1].z : line[i - 1].z - line[i].z;
-            if (rise > greatest_rise) {
-                greatest_rise = rise;
-                rises_at = joints.against[a] == 0 ? i : i - 1;
-            }
-        }
-        if (greatest_rise > 0.0) {
-            Vec2 const at = plan_of(line[rises_at]);
-            findings.push_back({"z_rising", number_of(file, file.arcs[a]), at, greatest_rise,
-                                fmt::format("arc {}: runs uphill by {} m to vertex {} at ({}, {})",
-                                            number_of(file, file.arcs[a]), greatest_rise, rises_at, at.x, at.y)});
-        }
-    }
-}
-
-namespace {
-
 // Ends that nearly meet something.
 
 /// A source or outlet, and the arc that ends there.
@@ -334,64 +266,6 @@ Near nearest(LooseEnd const& end, std::vector<geometry::NearSegment> const& segm
     }
     return near;
 }
-
-} // namespace
-
-void check_near_ends(NetworkFile const& file, Outlines const& plans, std::vector<char> const& left_out, double near_m,
-                     Joints& joints, Findings& findings, Run const& run) {
-    std::size_t const junctions = joints.junctions.ids.size();
-    auto const loose = loose_ends(joints, plans, Graph(joints.meant, left_out, junctions));
-    std::vector<Vec2> places;
-    places.reserve(loose.size());
-    for (LooseEnd const& end : loose) {
-        places.push_back(joints.place(end.arc, end.end, plans));
-    }
-    auto const segments = geometry::segments_near(places, plans, near_m, run);
-    // a union-find forest: an end and the junction it nearly meets become one
-    std::vector<std::size_t> same_as(junctions);
-    std::iota(same_as.begin(), same_as.end(), std::size_t{0});
-    auto const root = [&](std::size_t j) {
-        while (same_as[j] != j) {
-            j = same_as[j] = same_as[same_as[j]];
-        }
-        return j;
-    };
-    for (std::size_t i = 0; i < loose.size(); ++i) {
-        if (segments[i].size() < 2) {
-            continue; // its own junction
-        }
-        LooseEnd const& end = loose[i];
-        Near const near = nearest(end, segments[i], joints, plans, near_m);
-        if (near.arc == none) {
-            continue;
-        }
-        FileArc const& arc = file.arcs[end.arc];
-        Vec2 const at = places[i];
-        if (near.junction != none && near.from_junction == 0.0) {
-            FileArc const& other = file.arcs[near.ending];
-            findings.push_back({"touches", number_of(file, arc), at, static_cast<double>(number_of(file, other)),
-                                fmt::format("arc {}: ends at ({}, {}), where arc {} does, but they have no common node",
-                                            number_of(file, arc), at.x, at.y, number_of(file, other))});
-        } else if (!near.touches) {
-            std::size_t const towards = near.junction != none ? near.ending : near.arc;
-            double const apart = near.junction != none ? near.from_junction : near.apart;
-            findings.push_back(
-                {"dangling_end", number_of(file, arc), at, apart,
-                 fmt::format("arc {}: its end at ({}, {}) lies {} m from arc {} without meeting it",
-                             number_of(file, arc), at.x, at.y, apart, number_of(file, file.arcs[towards]))});
-        }
-        joints.faulty[end.arc][end.end] = 1;
-        if (near.junction != none) {
-            auto const [least, other] = std::minmax({root(end.junction), root(near.junction)});
-            same_as[other] = least;
-        }
-    }
-    for (Ends& ends : joints.meant) {
-        ends = {root(ends[0]), root(ends[1])};
-    }
-}
-
-namespace {
 
 // Whether the network is a forest.
 
@@ -475,6 +349,124 @@ void check_cycles(NetworkFile const& file, Graph const& graph, std::size_t junct
 }
 
 } // namespace
+
+std::size_t Junctions::of(std::int64_t id) const {
+    return static_cast<std::size_t>(std::lower_bound(ids.begin(), ids.end(), id) - ids.begin());
+}
+
+Joints check_ends(NetworkFile const& file, Outlines const& plans, std::vector<char> const& left_out,
+                  std::vector<char> const& ambiguous, Findings& findings) {
+    std::size_t const arcs = file.arcs.size();
+    Joints joints{junctions_of(file), {}, {}, std::vector<std::array<char, 2>>(arcs, {0, 0}), std::vector<char>(arcs)};
+    joints.said.reserve(arcs);
+    for (FileArc const& arc : file.arcs) {
+        joints.said.push_back({joints.junctions.of(arc.from_node), joints.junctions.of(arc.to_node)});
+    }
+    joints.meant = joints.said;
+    EndCheck check(file, joints, findings);
+    for (std::size_t a = 0; a < arcs; ++a) {
+        check.look(a, !plans[a].empty());
+    }
+    auto const turned = turned_by_links(file, joints.meant, left_out, ambiguous);
+    for (std::size_t a = 0; a < arcs; ++a) {
+        if (left_out[a] == 0 && (turned[a] != 0 || joints.against[a] != 0)) {
+            FileArc const& arc = file.arcs[a];
+            findings.push_back({"wrong_direction", number_of(file, arc), start_of(arc), length_of(plans[a]),
+                                turned[a] == 0
+                                    ? fmt::format("arc {}: is drawn from its to_node {} to its from_node {}",
+                                                  number_of(file, arc), arc.to_node, arc.from_node)
+                                    : fmt::format("arc {}: is said to run from node {} to {}, against the arcs that "
+                                                  "ds_arc links it to",
+                                                  number_of(file, arc), arc.from_node, arc.to_node)});
+        }
+        if (turned[a] != 0) {
+            std::swap(joints.said[a][0], joints.said[a][1]);
+            std::swap(joints.meant[a][0], joints.meant[a][1]);
+            std::swap(joints.faulty[a][0], joints.faulty[a][1]);
+            joints.against[a] = joints.against[a] == 0 ? 1 : 0;
+        }
+    }
+    return joints;
+}
+
+void check_heights(NetworkFile const& file, Outlines const& plans, std::vector<char> const& left_out,
+                   Joints const& joints, Findings& findings) {
+    for (std::size_t a = 0; a < file.arcs.size(); ++a) {
+        if (!file.says.heights || left_out[a] != 0 || plans[a].empty()) {
+            continue;
+        }
+        auto const& line = file.arcs[a].line;
+        double greatest_rise = 0.0;
+        std::size_t rises_at = 0;
+        for (std::size_t i = 1; i < line.size(); ++i) {
+            double const rise = joints.against[a] == 0 ? line[i].z - line[i - 1].z : line[i - 1].z - line[i].z;
+            if (rise > greatest_rise) {
+                greatest_rise = rise;
+                rises_at = joints.against[a] == 0 ? i : i - 1;
+            }
+        }
+        if (greatest_rise > 0.0) {
+            Vec2 const at = plan_of(line[rises_at]);
+            findings.push_back({"z_rising", number_of(file, file.arcs[a]), at, greatest_rise,
+                                fmt::format("arc {}: runs uphill by {} m to vertex {} at ({}, {})",
+                                            number_of(file, file.arcs[a]), greatest_rise, rises_at, at.x, at.y)});
+        }
+    }
+}
+
+void check_near_ends(NetworkFile const& file, Outlines const& plans, std::vector<char> const& left_out, double near_m,
+                     Joints& joints, Findings& findings, Run const& run) {
+    std::size_t const junctions = joints.junctions.ids.size();
+    auto const loose = loose_ends(joints, plans, Graph(joints.meant, left_out, junctions));
+    std::vector<Vec2> places;
+    places.reserve(loose.size());
+    for (LooseEnd const& end : loose) {
+        places.push_back(joints.place(end.arc, end.end, plans));
+    }
+    auto const segments = geometry::segments_near(places, plans, near_m, run);
+    // a union-find forest: an end and the junction it nearly meets become one
+    std::vector<std::size_t> same_as(junctions);
+    std::iota(same_as.begin(), same_as.end(), std::size_t{0});
+    auto const root = [&](std::size_t j) {
+        while (same_as[j] != j) {
+            j = same_as[j] = same_as[same_as[j]];
+        }
+        return j;
+    };
+    for (std::size_t i = 0; i < loose.size(); ++i) {
+        if (segments[i].size() < 2) {
+            continue; // its own junction
+        }
+        LooseEnd const& end = loose[i];
+        Near const near = nearest(end, segments[i], joints, plans, near_m);
+        if (near.arc == none) {
+            continue;
+        }
+        FileArc const& arc = file.arcs[end.arc];
+        Vec2 const at = places[i];
+        if (near.junction != none && near.from_junction == 0.0) {
+            FileArc const& other = file.arcs[near.ending];
+            findings.push_back({"touches", number_of(file, arc), at, static_cast<double>(number_of(file, other)),
+                                fmt::format("arc {}: ends at ({}, {}), where arc {} does, but they have no common node",
+                                            number_of(file, arc), at.x, at.y, number_of(file, other))});
+        } else if (!near.touches) {
+            std::size_t const towards = near.junction != none ? near.ending : near.arc;
+            double const apart = near.junction != none ? near.from_junction : near.apart;
+            findings.push_back(
+                {"dangling_end", number_of(file, arc), at, apart,
+                 fmt::format("arc {}: its end at ({}, {}) lies {} m from arc {} without meeting it",
+                             number_of(file, arc), at.x, at.y, apart, number_of(file, file.arcs[towards]))});
+        }
+        joints.faulty[end.arc][end.end] = 1;
+        if (near.junction != none) {
+            auto const [least, other] = std::minmax({root(end.junction), root(near.junction)});
+            same_as[other] = least;
+        }
+    }
+    for (Ends& ends : joints.meant) {
+        ends = {root(ends[0]), root(ends[1])};
+    }
+}
 
 Incidence::Incidence(std::vector<Ends> const& ends, std::size_t end, std::vector<char> const& left_out,
                      std::size_t junctions)

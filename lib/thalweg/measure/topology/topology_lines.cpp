@@ -82,126 +82,6 @@ int compare(Undirected const& p, Undirected const& q) {
     return 0;
 }
 
-} // namespace
-
-Vec2 start_of(FileArc const& arc) {
-    auto const p =
-        std::find_if(arc.line.begin(), arc.line.end(), [](Vec3 v) { return is_number(v.x) && is_number(v.y); });
-    return p == arc.line.end() ? Vec2{} : plan_of(*p);
-}
-
-std::vector<char> check_ids(NetworkFile const& file, Findings& findings) {
-    std::vector<char> ambiguous(file.arcs.size(), 0);
-    std::vector<Id> ids;
-    for (std::size_t a = 0; a < file.arcs.size(); ++a) {
-        FileArc const& arc = file.arcs[a];
-        ids.emplace_back(arc.id, a);
-        if (arc.id < 1) {
-            ambiguous[a] = 1;
-            findings.push_back(
-                {"bad_arc_id", number_of(file, arc), start_of(arc), static_cast<double>(number_of(file, arc)),
-                 fmt::format("arc {}: ids of arcs start at {}", number_of(file, arc), 1 - file.id_shift)});
-        }
-    }
-    each_repeated(std::move(ids), [&](std::span<Id const> same) {
-        findings.push_back(repeated_id("duplicate_arc_id", "arc", number_of(file, file.arcs[same[0].second]),
-                                       same.size(), start_of(file.arcs[same[1].second])));
-        for (Id const& id : same) {
-            ambiguous[id.second] = 1;
-        }
-    });
-    ids.clear();
-    for (std::size_t n = 0; n < file.nodes.size(); ++n) {
-        ids.emplace_back(file.nodes[n].id, n);
-    }
-    each_repeated(std::move(ids), [&](std::span<Id const> same) {
-        Vec3 const second = file.nodes[same[1].second].at;
-        findings.push_back(repeated_id("duplicate_node_id", "node", same[0].first, same.size(),
-                                       is_number(second.x) && is_number(second.y) ? plan_of(second) : Vec2{}));
-    });
-    return ambiguous;
-}
-
-Outlines check_shapes(NetworkFile const& file, Findings& findings) {
-    auto const is_place = [&](Vec3 p) {
-        return is_number(p.x) && is_number(p.y) && (!file.says.heights || is_number(p.z));
-    };
-    Outlines plans(file.arcs.size());
-    for (std::size_t a = 0; a < file.arcs.size(); ++a) {
-        FileArc const& arc = file.arcs[a];
-        if (arc.line.size() < 2) {
-            findings.push_back(
-                {"null_geometry", number_of(file, arc), start_of(arc), static_cast<double>(arc.line.size()),
-                 fmt::format("arc {}: has no line ({} vertices)", number_of(file, arc), arc.line.size())});
-            continue;
-        }
-        if (auto const bad =
-                arc.line.size() - static_cast<std::size_t>(std::count_if(arc.line.begin(), arc.line.end(), is_place));
-            bad > 0) {
-            findings.push_back(
-                {"nan", number_of(file, arc), start_of(arc), static_cast<double>(bad),
-                 fmt::format("arc {}: {} of its {} vertices have coordinates that are not numbers below {}",
-                             number_of(file, arc), bad, arc.line.size(), greatest_coordinate)});
-            continue;
-        }
-        plans[a] = without_repeats(arc.line);
-        if (length_of(plans[a]) <= 0.0) {
-            plans[a].clear();
-            findings.push_back({"zero_length", number_of(file, arc), start_of(arc), 0.0,
-                                fmt::format("arc {}: has no length, its {} vertices lie at ({}, {})",
-                                            number_of(file, arc), arc.line.size(), arc.line[0].x, arc.line[0].y)});
-        } else if (std::size_t const repeated = arc.line.size() - plans[a].size(); repeated > 0) {
-            auto const second = std::next(std::adjacent_find(arc.line.begin(), arc.line.end(),
-                                                             [](Vec3 p, Vec3 q) { return plan_of(p) == plan_of(q); }));
-            findings.push_back(
-                {"repeated_vertex", number_of(file, arc), plan_of(*second), static_cast<double>(repeated),
-                 fmt::format("arc {}: vertex {} at ({}, {}) repeats the one before it ({} such)", number_of(file, arc),
-                             second - arc.line.begin(), second->x, second->y, repeated)});
-        }
-    }
-    for (FileNode const& node : file.nodes) {
-        if (!is_place(node.at)) {
-            findings.push_back({"nan",
-                                node.id,
-                                {},
-                                1.0,
-                                fmt::format("node {}: its coordinates ({}, {}, {}) are not numbers below {}", node.id,
-                                            node.at.x, node.at.y, node.at.z, greatest_coordinate)});
-        }
-    }
-    return plans;
-}
-
-std::vector<char> check_copies(NetworkFile const& file, Outlines const& plans, Findings& findings) {
-    std::vector<Undirected> lines;
-    for (std::size_t a = 0; a < plans.size(); ++a) {
-        if (!plans[a].empty()) {
-            lines.push_back(undirected(plans[a], a));
-        }
-    }
-    std::sort(lines.begin(), lines.end(), [](Undirected const& p, Undirected const& q) {
-        int const order = compare(p, q);
-        return order != 0 ? order < 0 : p.arc < q.arc;
-    });
-    std::vector<char> copies(plans.size(), 0);
-    for (std::size_t i = 1, first = 0; i < lines.size(); ++i) {
-        if (compare(lines[i], lines[first]) != 0) {
-            first = i;
-            continue;
-        }
-        FileArc const& arc = file.arcs[lines[i].arc];
-        FileArc const& earlier = file.arcs[lines[first].arc];
-        copies[lines[i].arc] = 1;
-        findings.push_back({"duplicate_geometry", number_of(file, arc), start_of(arc),
-                            static_cast<double>(number_of(file, earlier)),
-                            fmt::format("arc {}: lies on the vertices of arc {}, from ({}, {})", number_of(file, arc),
-                                        number_of(file, earlier), start_of(arc).x, start_of(arc).y)});
-    }
-    return copies;
-}
-
-namespace {
-
 // Where arcs meet themselves and others.
 
 using geometry::Meeting;
@@ -373,6 +253,122 @@ private:
 };
 
 } // namespace
+
+Vec2 start_of(FileArc const& arc) {
+    auto const p =
+        std::find_if(arc.line.begin(), arc.line.end(), [](Vec3 v) { return is_number(v.x) && is_number(v.y); });
+    return p == arc.line.end() ? Vec2{} : plan_of(*p);
+}
+
+std::vector<char> check_ids(NetworkFile const& file, Findings& findings) {
+    std::vector<char> ambiguous(file.arcs.size(), 0);
+    std::vector<Id> ids;
+    for (std::size_t a = 0; a < file.arcs.size(); ++a) {
+        FileArc const& arc = file.arcs[a];
+        ids.emplace_back(arc.id, a);
+        if (arc.id < 1) {
+            ambiguous[a] = 1;
+            findings.push_back(
+                {"bad_arc_id", number_of(file, arc), start_of(arc), static_cast<double>(number_of(file, arc)),
+                 fmt::format("arc {}: ids of arcs start at {}", number_of(file, arc), 1 - file.id_shift)});
+        }
+    }
+    each_repeated(std::move(ids), [&](std::span<Id const> same) {
+        findings.push_back(repeated_id("duplicate_arc_id", "arc", number_of(file, file.arcs[same[0].second]),
+                                       same.size(), start_of(file.arcs[same[1].second])));
+        for (Id const& id : same) {
+            ambiguous[id.second] = 1;
+        }
+    });
+    ids.clear();
+    for (std::size_t n = 0; n < file.nodes.size(); ++n) {
+        ids.emplace_back(file.nodes[n].id, n);
+    }
+    each_repeated(std::move(ids), [&](std::span<Id const> same) {
+        Vec3 const second = file.nodes[same[1].second].at;
+        findings.push_back(repeated_id("duplicate_node_id", "node", same[0].first, same.size(),
+                                       is_number(second.x) && is_number(second.y) ? plan_of(second) : Vec2{}));
+    });
+    return ambiguous;
+}
+
+Outlines check_shapes(NetworkFile const& file, Findings& findings) {
+    auto const is_place = [&](Vec3 p) {
+        return is_number(p.x) && is_number(p.y) && (!file.says.heights || is_number(p.z));
+    };
+    Outlines plans(file.arcs.size());
+    for (std::size_t a = 0; a < file.arcs.size(); ++a) {
+        FileArc const& arc = file.arcs[a];
+        if (arc.line.size() < 2) {
+            findings.push_back(
+                {"null_geometry", number_of(file, arc), start_of(arc), static_cast<double>(arc.line.size()),
+                 fmt::format("arc {}: has no line ({} vertices)", number_of(file, arc), arc.line.size())});
+            continue;
+        }
+        if (auto const bad =
+                arc.line.size() - static_cast<std::size_t>(std::count_if(arc.line.begin(), arc.line.end(), is_place));
+            bad > 0) {
+            findings.push_back(
+                {"nan", number_of(file, arc), start_of(arc), static_cast<double>(bad),
+                 fmt::format("arc {}: {} of its {} vertices have coordinates that are not numbers below {}",
+                             number_of(file, arc), bad, arc.line.size(), greatest_coordinate)});
+            continue;
+        }
+        plans[a] = without_repeats(arc.line);
+        if (length_of(plans[a]) <= 0.0) {
+            plans[a].clear();
+            findings.push_back({"zero_length", number_of(file, arc), start_of(arc), 0.0,
+                                fmt::format("arc {}: has no length, its {} vertices lie at ({}, {})",
+                                            number_of(file, arc), arc.line.size(), arc.line[0].x, arc.line[0].y)});
+        } else if (std::size_t const repeated = arc.line.size() - plans[a].size(); repeated > 0) {
+            auto const second = std::next(std::adjacent_find(arc.line.begin(), arc.line.end(),
+                                                             [](Vec3 p, Vec3 q) { return plan_of(p) == plan_of(q); }));
+            findings.push_back(
+                {"repeated_vertex", number_of(file, arc), plan_of(*second), static_cast<double>(repeated),
+                 fmt::format("arc {}: vertex {} at ({}, {}) repeats the one before it ({} such)", number_of(file, arc),
+                             second - arc.line.begin(), second->x, second->y, repeated)});
+        }
+    }
+    for (FileNode const& node : file.nodes) {
+        if (!is_place(node.at)) {
+            findings.push_back({"nan",
+                                node.id,
+                                {},
+                                1.0,
+                                fmt::format("node {}: its coordinates ({}, {}, {}) are not numbers below {}", node.id,
+                                            node.at.x, node.at.y, node.at.z, greatest_coordinate)});
+        }
+    }
+    return plans;
+}
+
+std::vector<char> check_copies(NetworkFile const& file, Outlines const& plans, Findings& findings) {
+    std::vector<Undirected> lines;
+    for (std::size_t a = 0; a < plans.size(); ++a) {
+        if (!plans[a].empty()) {
+            lines.push_back(undirected(plans[a], a));
+        }
+    }
+    std::sort(lines.begin(), lines.end(), [](Undirected const& p, Undirected const& q) {
+        int const order = compare(p, q);
+        return order != 0 ? order < 0 : p.arc < q.arc;
+    });
+    std::vector<char> copies(plans.size(), 0);
+    for (std::size_t i = 1, first = 0; i < lines.size(); ++i) {
+        if (compare(lines[i], lines[first]) != 0) {
+            first = i;
+            continue;
+        }
+        FileArc const& arc = file.arcs[lines[i].arc];
+        FileArc const& earlier = file.arcs[lines[first].arc];
+        copies[lines[i].arc] = 1;
+        findings.push_back({"duplicate_geometry", number_of(file, arc), start_of(arc),
+                            static_cast<double>(number_of(file, earlier)),
+                            fmt::format("arc {}: lies on the vertices of arc {}, from ({}, {})", number_of(file, arc),
+                                        number_of(file, earlier), start_of(arc).x, start_of(arc).y)});
+    }
+    return copies;
+}
 
 void check_meetings(NetworkFile const& file, Outlines const& plans, Joints const& joints, double near_m,
                     Findings& findings, Run const& run) {

@@ -195,31 +195,6 @@ private:
     std::int32_t last_ = 0;
 };
 
-} // namespace
-
-Raster<std::int32_t> choose_lakes(ChannelsOfArcs const& drawn, std::vector<double> const& area_m2,
-                                  ChooseLakesParams const& params, Run const& run) {
-    check(drawn, area_m2, params);
-    Grid const& grid = drawn.channels.grid;
-    Shores shores(drawn, params.seed);
-    for (std::size_t a = 0; a < area_m2.size(); ++a) {
-        run.check();
-        double const area = area_m2[a] / (grid.cell_m * grid.cell_m);
-        auto const words = random_block(params.seed, lake_stage, ~0ULL, a);
-        if (!(area >= params.min_area_cells) || drawn.of_arc[a].empty() || !(unit(words[0]) < params.share)) {
-            continue;
-        }
-        auto const least = static_cast<double>(fewest_lake_cells);
-        double const most = std::max(least, std::min(area / 50.0, static_cast<double>(params.max_cells)));
-        // Small lakes are frequent, large ones rare: the logarithm is uniform.
-        double const size = least * portable::pow(most / least, unit(words[1]));
-        shores.grow(a, static_cast<std::int64_t>(size), 0.2 + 0.6 * unit(words[2]));
-    }
-    return std::move(shores.labels);
-}
-
-namespace {
-
 constexpr std::int64_t no_cell = -1;
 constexpr std::int64_t fewest_flooded_cells = 4;
 
@@ -552,7 +527,44 @@ Flooded with_lakes(ChannelsOfArcs const& drawn, Lakes lakes, std::vector<std::in
     return out;
 }
 
+/// What keeps the level of a lake up: the next lake with a level downstream, or the end of the river.
+std::string hindrance(Channels const& channels, std::vector<Lake> const& lakes, Lake const& lake,
+                      Raster<float> const& dem) {
+    std::int64_t cells = 0;
+    std::int64_t at = lake.outlet;
+    do {
+        if (channels.receiver[at] < 0) {
+            return fmt::format("its river ends at {:.6g} m, cells downstream: {}", dem[channels.cell[at]], cells);
+        }
+        at = channels.receiver[at];
+        ++cells;
+    } while (std::isnan(channels.lake_z[at]));
+    auto const below = std::ranges::find(lakes, at, &Lake::outlet);
+    return fmt::format("lake {} stands at {:.6g} m, cells downstream: {}", below->label, dem[channels.cell[at]], cells);
+}
+
 } // namespace
+
+Raster<std::int32_t> choose_lakes(ChannelsOfArcs const& drawn, std::vector<double> const& area_m2,
+                                  ChooseLakesParams const& params, Run const& run) {
+    check(drawn, area_m2, params);
+    Grid const& grid = drawn.channels.grid;
+    Shores shores(drawn, params.seed);
+    for (std::size_t a = 0; a < area_m2.size(); ++a) {
+        run.check();
+        double const area = area_m2[a] / (grid.cell_m * grid.cell_m);
+        auto const words = random_block(params.seed, lake_stage, ~0ULL, a);
+        if (!(area >= params.min_area_cells) || drawn.of_arc[a].empty() || !(unit(words[0]) < params.share)) {
+            continue;
+        }
+        auto const least = static_cast<double>(fewest_lake_cells);
+        double const most = std::max(least, std::min(area / 50.0, static_cast<double>(params.max_cells)));
+        // Small lakes are frequent, large ones rare: the logarithm is uniform.
+        double const size = least * portable::pow(most / least, unit(words[1]));
+        shores.grow(a, static_cast<std::int64_t>(size), 0.2 + 0.6 * unit(words[2]));
+    }
+    return std::move(shores.labels);
+}
 
 Flooded flood_lakes(ChannelsOfArcs const& drawn, Raster<std::int32_t> const& labels, Run const& run) {
     require_same_grid(labels.grid(), drawn.channels.grid, "network.flood_lakes: the lakes and the channels",
@@ -588,26 +600,6 @@ std::vector<Finding> lakes_off_levels(std::vector<Finding> const& lakes) {
              .key = "surface.lakes",
              .numbers = {{"lakes", static_cast<double>(lakes.size())}}}};
 }
-
-namespace {
-
-/// What keeps the level of a lake up: the next lake with a level downstream, or the end of the river.
-std::string hindrance(Channels const& channels, std::vector<Lake> const& lakes, Lake const& lake,
-                      Raster<float> const& dem) {
-    std::int64_t cells = 0;
-    std::int64_t at = lake.outlet;
-    do {
-        if (channels.receiver[at] < 0) {
-            return fmt::format("its river ends at {:.6g} m, cells downstream: {}", dem[channels.cell[at]], cells);
-        }
-        at = channels.receiver[at];
-        ++cells;
-    } while (std::isnan(channels.lake_z[at]));
-    auto const below = std::ranges::find(lakes, at, &Lake::outlet);
-    return fmt::format("lake {} stands at {:.6g} m, cells downstream: {}", below->label, dem[channels.cell[at]], cells);
-}
-
-} // namespace
 
 std::vector<Finding> missed_levels(Channels const& channels, std::vector<Lake> const& lakes, Raster<float> const& dem) {
     std::vector<Finding> notes;

@@ -32,82 +32,6 @@ double height_at(Raster<float> const& dem, Vec2 p) {
     return static_cast<double>(z);
 }
 
-} // namespace
-
-double noise_of_heights(double low_m, double high_m) {
-    constexpr double least_m = 20.0;
-    constexpr double share = 0.05;
-    return std::max(least_m, share * (high_m - low_m));
-}
-
-Lowered lower_rises(StreamNetwork const& network, std::vector<std::vector<double>> const& arc_z) {
-    require_trees(network, "network.lower_rises");
-    bool whole = arc_z.size() == network.arc_count();
-    for (std::size_t a = 0; whole && a < arc_z.size(); ++a) {
-        whole = arc_z[a].size() == network.arc(a).line.size() && !arc_z[a].empty();
-    }
-    refuse_if<BadInput>(!whole, "network.lower_rises: heights are not one for each vertex of {} arcs",
-                        network.arc_count());
-    Lowered lowered{{network, {}, arc_z}, std::vector<double>(arc_z.size(), 0.0)};
-    auto& node_z = lowered.network.node_z;
-    node_z.assign(network.node_count(), std::numeric_limits<double>::infinity());
-    for (auto node = network.upstream_order().rbegin(); node != network.upstream_order().rend(); ++node) {
-        ArcId const a = network.out(*node);
-        if (a == no_arc) {
-            continue;
-        }
-        auto& z = lowered.network.arc_z[a];
-        double low = std::min(node_z[*node], z.front());
-        node_z[*node] = low;
-        for (double& vertex : z) {
-            low = std::min(low, vertex);
-            lowered.by_m[a] = std::max(lowered.by_m[a], vertex - low);
-            vertex = low;
-        }
-        double& below = node_z[network.to(a)];
-        below = std::min(below, low);
-    }
-    // The last vertex of an arc takes the common height of its node.
-    for (std::size_t a = 0; a < arc_z.size(); ++a) {
-        double& last = lowered.network.arc_z[a].back();
-        double const z = node_z[network.to(a)];
-        lowered.by_m[a] = std::max(lowered.by_m[a], last - z);
-        last = z;
-    }
-    for (double& z : node_z) {
-        z = z == std::numeric_limits<double>::infinity() ? 0.0 : z; // a node without arcs
-    }
-    return lowered;
-}
-
-ElevatedNetwork drape(StreamNetwork const& network, Raster<float> const& dem) {
-    require_trees(network, "network.drape");
-    ElevatedNetwork raised{network, {}, {}};
-    raised.arc_z.resize(network.arc_count());
-    for (NodeId n = 0; n < network.node_count(); ++n) {
-        raised.node_z.push_back(height_at(dem, network.node(n).at));
-    }
-    for (auto n = network.upstream_order().rbegin(); n != network.upstream_order().rend(); ++n) { // sources first
-        ArcId const a = network.out(*n);
-        if (a == no_arc) {
-            continue;
-        }
-        double z = raised.node_z[*n];
-        for (Vec2 const p : network.arc(a).line) {
-            z = std::min(z, height_at(dem, p));
-            raised.arc_z[a].push_back(z);
-        }
-        double& end = raised.node_z[network.to(a)];
-        end = std::min(end, z);
-    }
-    for (std::size_t a = 0; a < network.arc_count(); ++a) { // another arc may be lower at the node
-        raised.arc_z[a].back() = raised.node_z[network.to(a)];
-    }
-    return raised;
-}
-
-namespace {
-
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// The nearest known height in one direction, and its distance.
@@ -256,17 +180,6 @@ private:
     std::vector<std::vector<Known>> up_;    ///< by arc, by vertex: the nearest known height upstream, itself included
 };
 
-} // namespace
-
-ElevatedNetwork elevate_from_dem(StreamNetwork const& network, Channels const& channels, Raster<float> const& land) {
-    require_trees(network, "network.elevate_from_dem");
-    require_same_grid(land.grid(), channels.grid, "network.elevate_from_dem: the land and the channels",
-                      "give the land that was made around them");
-    return lower_rises(network, Heights(network, channels, land).filled()).network;
-}
-
-namespace {
-
 /// Tracks the slope of a river over its last stretch of known heights, downstream.
 class OwnSlope {
 public:
@@ -299,6 +212,85 @@ private:
 };
 
 } // namespace
+
+double noise_of_heights(double low_m, double high_m) {
+    constexpr double least_m = 20.0;
+    constexpr double share = 0.05;
+    return std::max(least_m, share * (high_m - low_m));
+}
+
+Lowered lower_rises(StreamNetwork const& network, std::vector<std::vector<double>> const& arc_z) {
+    require_trees(network, "network.lower_rises");
+    bool whole = arc_z.size() == network.arc_count();
+    for (std::size_t a = 0; whole && a < arc_z.size(); ++a) {
+        whole = arc_z[a].size() == network.arc(a).line.size() && !arc_z[a].empty();
+    }
+    refuse_if<BadInput>(!whole, "network.lower_rises: heights are not one for each vertex of {} arcs",
+                        network.arc_count());
+    Lowered lowered{{network, {}, arc_z}, std::vector<double>(arc_z.size(), 0.0)};
+    auto& node_z = lowered.network.node_z;
+    node_z.assign(network.node_count(), std::numeric_limits<double>::infinity());
+    for (auto node = network.upstream_order().rbegin(); node != network.upstream_order().rend(); ++node) {
+        ArcId const a = network.out(*node);
+        if (a == no_arc) {
+            continue;
+        }
+        auto& z = lowered.network.arc_z[a];
+        double low = std::min(node_z[*node], z.front());
+        node_z[*node] = low;
+        for (double& vertex : z) {
+            low = std::min(low, vertex);
+            lowered.by_m[a] = std::max(lowered.by_m[a], vertex - low);
+            vertex = low;
+        }
+        double& below = node_z[network.to(a)];
+        below = std::min(below, low);
+    }
+    // The last vertex of an arc takes the common height of its node.
+    for (std::size_t a = 0; a < arc_z.size(); ++a) {
+        double& last = lowered.network.arc_z[a].back();
+        double const z = node_z[network.to(a)];
+        lowered.by_m[a] = std::max(lowered.by_m[a], last - z);
+        last = z;
+    }
+    for (double& z : node_z) {
+        z = z == std::numeric_limits<double>::infinity() ? 0.0 : z; // a node without arcs
+    }
+    return lowered;
+}
+
+ElevatedNetwork drape(StreamNetwork const& network, Raster<float> const& dem) {
+    require_trees(network, "network.drape");
+    ElevatedNetwork raised{network, {}, {}};
+    raised.arc_z.resize(network.arc_count());
+    for (NodeId n = 0; n < network.node_count(); ++n) {
+        raised.node_z.push_back(height_at(dem, network.node(n).at));
+    }
+    for (auto n = network.upstream_order().rbegin(); n != network.upstream_order().rend(); ++n) { // sources first
+        ArcId const a = network.out(*n);
+        if (a == no_arc) {
+            continue;
+        }
+        double z = raised.node_z[*n];
+        for (Vec2 const p : network.arc(a).line) {
+            z = std::min(z, height_at(dem, p));
+            raised.arc_z[a].push_back(z);
+        }
+        double& end = raised.node_z[network.to(a)];
+        end = std::min(end, z);
+    }
+    for (std::size_t a = 0; a < network.arc_count(); ++a) { // another arc may be lower at the node
+        raised.arc_z[a].back() = raised.node_z[network.to(a)];
+    }
+    return raised;
+}
+
+ElevatedNetwork elevate_from_dem(StreamNetwork const& network, Channels const& channels, Raster<float> const& land) {
+    require_trees(network, "network.elevate_from_dem");
+    require_same_grid(land.grid(), channels.grid, "network.elevate_from_dem: the land and the channels",
+                      "give the land that was made around them");
+    return lower_rises(network, Heights(network, channels, land).filled()).network;
+}
 
 ElevatedNetwork keep_heights(StreamNetwork const& network, ElevatedNetwork const& known) {
     std::map<std::pair<double, double>, double> height;

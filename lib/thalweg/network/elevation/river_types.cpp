@@ -31,18 +31,6 @@ constexpr ByEnum<Rosgen, SlopeRange, rosgen_types.size()> slopes_of_types{{{{0.1
                                                                             {least, 0.02, 0.01},
                                                                             {0.02, 0.04, 0.03}}}};
 
-} // namespace
-
-SlopeRange slope_range(Rosgen type) {
-    return slopes_of_types[type];
-}
-
-bool is_braided(Rosgen type) {
-    return type == Rosgen::d || type == Rosgen::da;
-}
-
-namespace {
-
 [[noreturn]] void refuse(Arc const& arc, std::size_t number) {
     std::vector<std::string> known;
     std::string list;
@@ -64,6 +52,14 @@ Rosgen of_order(int order, int highest, std::vector<Rosgen> const& types) {
 }
 
 } // namespace
+
+SlopeRange slope_range(Rosgen type) {
+    return slopes_of_types[type];
+}
+
+bool is_braided(Rosgen type) {
+    return type == Rosgen::d || type == Rosgen::da;
+}
 
 RiverTypes assign_types(StreamNetwork const& network, NetworkOrders const& orders, AssignTypesParams const& params,
                         Run const& run) {

@@ -133,32 +133,6 @@ void report_lift(std::vector<double> const& straight, std::vector<double> const&
     }
 }
 
-} // namespace
-
-Elevated set_heights(StreamNetwork const& network, HeightParams const& params, Run const& run) {
-    require_in("network.set_heights", "slope", params.slope, Range::above(0.0), "m/m");
-    require_positive_lengths(network, "network.set_heights");
-    run.check();
-
-    Elevated raised;
-    std::vector<double> const straight = straight_heights(network, params.slope);
-    report_uphill(network, straight, raised.report);
-    std::vector<double> z;
-    switch (params.mode) {
-    case HeightMode::straight: z = straight; break;
-    case HeightMode::straight_repaired:
-        z = majorant(network, straight, least_share * params.slope);
-        report_lift(straight, z, raised.report);
-        break;
-    case HeightMode::along_stream: z = majorant(network, straight, params.slope); break;
-    }
-
-    raised.network = elevate_linearly(network, std::move(z), "network.set_heights");
-    return raised;
-}
-
-namespace {
-
 void require(GradedParams const& params) {
     constexpr char const* self = "network.set_heights_graded";
     require_in(self, "slope", params.slope, Range::above(0.0));
@@ -248,7 +222,42 @@ std::vector<double> sum_upstream(StreamNetwork const& network, std::vector<doubl
     return sum;
 }
 
+constexpr std::uint64_t slope_stage = 0x736c6f7065627974; // "slopebyt"
+
+double slope_at(Vec2 place, Rosgen type, HeightsByTypeParams const& params) {
+    SlopeRange const range = slope_range(type);
+    if (params.draw == SlopeDraw::middle) {
+        return range.usual;
+    }
+    // Adding 0 makes both signed zeros one position.
+    auto const word = random_word(params.seed, slope_stage, std::bit_cast<std::uint64_t>(place.x + 0.0),
+                                  std::bit_cast<std::uint64_t>(place.y + 0.0));
+    return std::min(range.low + (range.high - range.low) * unit(word), range.high);
+}
+
 } // namespace
+
+Elevated set_heights(StreamNetwork const& network, HeightParams const& params, Run const& run) {
+    require_in("network.set_heights", "slope", params.slope, Range::above(0.0), "m/m");
+    require_positive_lengths(network, "network.set_heights");
+    run.check();
+
+    Elevated raised;
+    std::vector<double> const straight = straight_heights(network, params.slope);
+    report_uphill(network, straight, raised.report);
+    std::vector<double> z;
+    switch (params.mode) {
+    case HeightMode::straight: z = straight; break;
+    case HeightMode::straight_repaired:
+        z = majorant(network, straight, least_share * params.slope);
+        report_lift(straight, z, raised.report);
+        break;
+    case HeightMode::along_stream: z = majorant(network, straight, params.slope); break;
+    }
+
+    raised.network = elevate_linearly(network, std::move(z), "network.set_heights");
+    return raised;
+}
 
 Graded set_heights_graded(StreamNetwork const& network, std::vector<double> const& us_area_m2,
                           std::vector<double> const& ds_area_m2, GradedParams const& params, Run const& run) {
@@ -284,23 +293,6 @@ Graded set_heights_graded(StreamNetwork const& network, std::vector<double> cons
     }
     return graded;
 }
-
-namespace {
-
-constexpr std::uint64_t slope_stage = 0x736c6f7065627974; // "slopebyt"
-
-double slope_at(Vec2 place, Rosgen type, HeightsByTypeParams const& params) {
-    SlopeRange const range = slope_range(type);
-    if (params.draw == SlopeDraw::middle) {
-        return range.usual;
-    }
-    // Adding 0 makes both signed zeros one position.
-    auto const word = random_word(params.seed, slope_stage, std::bit_cast<std::uint64_t>(place.x + 0.0),
-                                  std::bit_cast<std::uint64_t>(place.y + 0.0));
-    return std::min(range.low + (range.high - range.low) * unit(word), range.high);
-}
-
-} // namespace
 
 ElevatedNetwork set_heights_by_type(StreamNetwork const& network, RiverTypes const& types,
                                     HeightsByTypeParams const& params, Run const& run) {

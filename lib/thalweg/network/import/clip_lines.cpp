@@ -89,26 +89,6 @@ SecondaryLine beyond_grid(RiverLine const& line, std::vector<Vec3> vertices) {
     return {line.feature, std::move(vertices), "beyond the grid", line.feature, LeftOut::grid};
 }
 
-} // namespace
-
-RiverLines clip_lines(RiverLines const& lines, Grid const& grid) {
-    Window const box{grid.west, grid.east(), grid.south(), grid.north};
-    RiverLines out = lines;
-    out.lines.clear();
-    for (RiverLine const& line : lines.lines) {
-        for (SidePart& part : parts_by_side(line.vertices, box)) {
-            if (part.is_inside) {
-                out.lines.emplace_back(line).vertices = std::move(part.vertices);
-            } else {
-                out.secondary.push_back(beyond_grid(line, std::move(part.vertices)));
-            }
-        }
-    }
-    return out;
-}
-
-namespace {
-
 using Place = std::pair<double, double>;
 
 Place plan_key(Vec3 p) {
@@ -361,6 +341,22 @@ private:
 };
 
 } // namespace
+
+RiverLines clip_lines(RiverLines const& lines, Grid const& grid) {
+    Window const box{grid.west, grid.east(), grid.south(), grid.north};
+    RiverLines out = lines;
+    out.lines.clear();
+    for (RiverLine const& line : lines.lines) {
+        for (SidePart& part : parts_by_side(line.vertices, box)) {
+            if (part.is_inside) {
+                out.lines.emplace_back(line).vertices = std::move(part.vertices);
+            } else {
+                out.secondary.push_back(beyond_grid(line, std::move(part.vertices)));
+            }
+        }
+    }
+    return out;
+}
 
 RiverLines end_at_edge(RiverLines const& lines, Grid const& grid) {
     constexpr std::int64_t fewest = 5;

@@ -483,15 +483,6 @@ private:
     Divided divided_ = {};
 };
 
-} // namespace
-
-Divided divide(Pieces& pieces, std::vector<RiverLine> const& lines, RiverLines const& file, Orientation orientation,
-               std::vector<Evidence> const& evidence, Votes const& drawn, Run const& run) {
-    return Divider(pieces, lines, file, orientation, evidence, drawn).divide(run);
-}
-
-namespace {
-
 constexpr char const* unfed = "goes on from a minor channel";
 
 /// By node: the pieces outside the network that touch it, without rings.
@@ -507,6 +498,11 @@ std::vector<std::vector<std::size_t>> outside_at(Pieces const& p, Divided const&
 }
 
 } // namespace
+
+Divided divide(Pieces& pieces, std::vector<RiverLine> const& lines, RiverLines const& file, Orientation orientation,
+               std::vector<Evidence> const& evidence, Votes const& drawn, Run const& run) {
+    return Divider(pieces, lines, file, orientation, evidence, drawn).divide(run);
+}
 
 void drop_unfed(Pieces& p, Divided& divided, std::vector<PieceId>& leaves) {
     auto const outside = outside_at(p, divided);

@@ -19,61 +19,10 @@ constexpr double share_of_named = 0.1;  // of the shorter line: gap to the line 
 constexpr double much_as_drawn = 0.4;   // share above a half by which a drawing is sure
 constexpr double vertex_farther = 1.25; // times as far as a point between vertices, and still preferred
 
-} // namespace
-
-Vec2 end_of(RiverLine const& line, std::size_t e) {
-    return in_plan(e % 2 == 0 ? line.vertices.front() : line.vertices.back());
-}
-
-namespace {
-
 /// Whether a line was cut at this end.
 bool is_at_edge(std::vector<RiverLine> const& lines, std::size_t e) {
     return e % 2 == 0 ? lines[e / 2].begins_at_edge : lines[e / 2].ends_at_edge;
 }
-
-} // namespace
-
-Parts parts_of(Pieces const& pieces, std::vector<RiverLine> const& lines) {
-    Parts parts{std::vector<std::size_t>(lines.size(), 0), std::vector<char>(2 * lines.size(), 0), pieces.nodes.size()};
-    Sets sets(pieces.nodes.size());
-    for (Piece const& piece : pieces.pieces) {
-        sets.join(piece.from, piece.to);
-        if (piece.first == 0) {
-            bool const is_alone = pieces.at_node[piece.from].size() == 1;
-            parts.is_open[2 * piece.line] = is_alone && !is_at_edge(lines, 2 * piece.line) ? 1 : 0;
-        }
-        if (piece.last + 1 == lines[piece.line].vertices.size()) {
-            bool const is_alone = pieces.at_node[piece.to].size() == 1;
-            parts.is_open[2 * piece.line + 1] = is_alone && !is_at_edge(lines, 2 * piece.line + 1) ? 1 : 0;
-        }
-    }
-    for (Piece const& piece : pieces.pieces) {
-        parts.of_line[piece.line] = sets.of(piece.from);
-    }
-    return parts;
-}
-
-bool is_drawing_sure(FoundDirections const& found) {
-    return std::fabs(found.report.drawn_downstream - 0.5) >= much_as_drawn;
-}
-
-std::vector<int> flows_at_ends(Pieces const& pieces, std::vector<RiverLine> const& lines,
-                               std::vector<int> const& runs) {
-    std::vector<int> flows(2 * lines.size(), 0);
-    for (PieceId k = 0; k < pieces.pieces.size(); ++k) {
-        Piece const& piece = pieces.pieces[k];
-        if (piece.first == 0) {
-            flows[2 * piece.line] = -runs[k];
-        }
-        if (piece.last + 1 == lines[piece.line].vertices.size()) {
-            flows[2 * piece.line + 1] = runs[k];
-        }
-    }
-    return flows;
-}
-
-namespace {
 
 /// By end, as far as it is sure.
 std::vector<int> sure_flows(Pieces const& pieces, std::vector<RiverLine>& lines, RiverLines const& file,
@@ -283,6 +232,49 @@ private:
 };
 
 } // namespace
+
+Vec2 end_of(RiverLine const& line, std::size_t e) {
+    return in_plan(e % 2 == 0 ? line.vertices.front() : line.vertices.back());
+}
+
+Parts parts_of(Pieces const& pieces, std::vector<RiverLine> const& lines) {
+    Parts parts{std::vector<std::size_t>(lines.size(), 0), std::vector<char>(2 * lines.size(), 0), pieces.nodes.size()};
+    Sets sets(pieces.nodes.size());
+    for (Piece const& piece : pieces.pieces) {
+        sets.join(piece.from, piece.to);
+        if (piece.first == 0) {
+            bool const is_alone = pieces.at_node[piece.from].size() == 1;
+            parts.is_open[2 * piece.line] = is_alone && !is_at_edge(lines, 2 * piece.line) ? 1 : 0;
+        }
+        if (piece.last + 1 == lines[piece.line].vertices.size()) {
+            bool const is_alone = pieces.at_node[piece.to].size() == 1;
+            parts.is_open[2 * piece.line + 1] = is_alone && !is_at_edge(lines, 2 * piece.line + 1) ? 1 : 0;
+        }
+    }
+    for (Piece const& piece : pieces.pieces) {
+        parts.of_line[piece.line] = sets.of(piece.from);
+    }
+    return parts;
+}
+
+bool is_drawing_sure(FoundDirections const& found) {
+    return std::fabs(found.report.drawn_downstream - 0.5) >= much_as_drawn;
+}
+
+std::vector<int> flows_at_ends(Pieces const& pieces, std::vector<RiverLine> const& lines,
+                               std::vector<int> const& runs) {
+    std::vector<int> flows(2 * lines.size(), 0);
+    for (PieceId k = 0; k < pieces.pieces.size(); ++k) {
+        Piece const& piece = pieces.pieces[k];
+        if (piece.first == 0) {
+            flows[2 * piece.line] = -runs[k];
+        }
+        if (piece.last + 1 == lines[piece.line].vertices.size()) {
+            flows[2 * piece.line + 1] = runs[k];
+        }
+    }
+    return flows;
+}
 
 bool close_gaps(std::vector<RiverLine>& lines, RiverLines const& file, ImportParams const& params, Left& left,
                 Run const& run) {

@@ -378,27 +378,6 @@ Imported imported_with_lakes(RiverLines const& file, ImportParams const& params,
     return imported;
 }
 
-} // namespace
-
-Imported import_lines(RiverLines const& file, ImportParams const& params, Run const& run) {
-    if (file.lakes.empty()) {
-        return imported_with_lakes(file, params, run);
-    }
-    try {
-        return imported_with_lakes(file, params, run);
-    } catch (BadInput const& cannot) { // by heights, say, a lake that rivers run through has two outflows
-        RiverLines bare = file;
-        bare.lakes.clear();
-        Imported imported = imported_with_lakes(bare, params, run);
-        imported.repairs.push_back({"lake_left_out", file.lakes.front().feature,
-                                    file.lakes.front().rings.front().front(), 0.0,
-                                    fmt::format("no river runs through a lake: {}", cannot.what())});
-        return imported;
-    }
-}
-
-namespace {
-
 // Describes where in the file segment ab of an arc, drawn downstream, rises from za to zb.
 std::string uphill(RiverLines const& file, Vec2 a, Vec2 b, double za, double zb) {
     Vec2 const middle{0.5 * (a.x + b.x), 0.5 * (a.y + b.y)};
@@ -437,6 +416,23 @@ std::string uphill(RiverLines const& file, Vec2 a, Vec2 b, double za, double zb)
 }
 
 } // namespace
+
+Imported import_lines(RiverLines const& file, ImportParams const& params, Run const& run) {
+    if (file.lakes.empty()) {
+        return imported_with_lakes(file, params, run);
+    }
+    try {
+        return imported_with_lakes(file, params, run);
+    } catch (BadInput const& cannot) { // by heights, say, a lake that rivers run through has two outflows
+        RiverLines bare = file;
+        bare.lakes.clear();
+        Imported imported = imported_with_lakes(bare, params, run);
+        imported.repairs.push_back({"lake_left_out", file.lakes.front().feature,
+                                    file.lakes.front().rings.front().front(), 0.0,
+                                    fmt::format("no river runs through a lake: {}", cannot.what())});
+        return imported;
+    }
+}
 
 ElevatedNetwork take_file_heights(Imported const& imported, RiverLines const& file) {
     if (imported.arc_z.size() != imported.network.arc_count()) {

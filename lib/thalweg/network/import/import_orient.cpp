@@ -329,6 +329,33 @@ Pieces with_lakes_as_places(Pieces const& pieces, std::vector<RiverLine> const& 
     return merged;
 }
 
+// A component is a tree, so that its outlet determines the direction of every piece. Each kind of evidence is a vote of
+// every piece for one of its ends; the outlet is the node with the least length of opposing votes.
+
+[[noreturn]] void refuse_bifurcation(Pieces const& p, std::vector<RiverLine> const& lines, Tree const& tree,
+                                     Votes const& votes, std::string const& name, char const* evidence) {
+    for (std::size_t const n : tree.nodes) {
+        auto const k = tree.towards[n];
+        if (k == no_piece) {
+            continue;
+        }
+        auto const& piece = p.pieces[k];
+        int const vote = votes[k];
+        if (vote == 0 || (vote > 0) == (piece.from == n)) {
+            continue;
+        }
+        std::size_t const place = other_end(piece, n); // both this piece and the one towards the outlet leave it
+        auto const& next = p.pieces[tree.towards[place]];
+        Vec2 const at = p.nodes[place];
+        throw BadInput(
+            fmt::format("network.import_lines: rivers {} and {} in {} both run away from ({:.6f}, {:.6f}) by {}; "
+                        "water has one way down from every place: remove one, or orient by something else "
+                        "(network.lines.orientation)",
+                        lines[piece.line].number(), lines[next.line].number(), name, at.x, at.y, evidence));
+    }
+    throw BadInput("network.import_lines: the rivers of " + name + " cannot be oriented by " + evidence);
+}
+
 } // namespace
 
 std::vector<Evidence> evidence_of(Pieces const& pieces, std::vector<RiverLine>& lines, RiverLines const& file,
@@ -375,37 +402,6 @@ std::vector<Evidence> evidence_of(Pieces const& pieces, std::vector<RiverLine>& 
     }
     return evidence;
 }
-
-namespace {
-
-// A component is a tree, so that its outlet determines the direction of every piece. Each kind of evidence is a vote of
-// every piece for one of its ends; the outlet is the node with the least length of opposing votes.
-
-[[noreturn]] void refuse_bifurcation(Pieces const& p, std::vector<RiverLine> const& lines, Tree const& tree,
-                                     Votes const& votes, std::string const& name, char const* evidence) {
-    for (std::size_t const n : tree.nodes) {
-        auto const k = tree.towards[n];
-        if (k == no_piece) {
-            continue;
-        }
-        auto const& piece = p.pieces[k];
-        int const vote = votes[k];
-        if (vote == 0 || (vote > 0) == (piece.from == n)) {
-            continue;
-        }
-        std::size_t const place = other_end(piece, n); // both this piece and the one towards the outlet leave it
-        auto const& next = p.pieces[tree.towards[place]];
-        Vec2 const at = p.nodes[place];
-        throw BadInput(
-            fmt::format("network.import_lines: rivers {} and {} in {} both run away from ({:.6f}, {:.6f}) by {}; "
-                        "water has one way down from every place: remove one, or orient by something else "
-                        "(network.lines.orientation)",
-                        lines[piece.line].number(), lines[next.line].number(), name, at.x, at.y, evidence));
-    }
-    throw BadInput("network.import_lines: the rivers of " + name + " cannot be oriented by " + evidence);
-}
-
-} // namespace
 
 void report_turned(Pieces const& p, std::vector<RiverLine> const& lines, std::vector<PieceId> const& leaves,
                    std::vector<Finding>& repairs) {

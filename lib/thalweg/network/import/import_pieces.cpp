@@ -117,6 +117,171 @@ std::vector<geometry::NearSegment> goals_of_open(std::vector<RiverLine> const& l
     return goals;
 }
 
+using geometry::Crossing;
+
+bool inside(Crossing const& c, std::vector<std::vector<Vec2>> const& plans) {
+    return c.at != plans[c.line][c.segment] && c.at != plans[c.line][c.segment + 1];
+}
+
+// The vertex for the lines of one crossing: an existing one or an earlier crossing if one is that close, so that no
+// segment is shorter than the precision of coordinates.
+Vec2 meeting(std::vector<Crossing const*> const& group, std::vector<std::vector<Vec2>> const& plans,
+             std::vector<Vec2> const& earlier) {
+    Vec2 const at = group.front()->at;
+    Vec2 best = at;
+    double least = same_point_m;
+    auto const offer = [&](Vec2 p) {
+        if (double const d = distance(at, p); d < least) {
+            least = d;
+            best = p;
+        }
+    };
+    for (auto const* c : group) {
+        offer(plans[c->line][c->segment]);
+        offer(plans[c->line][c->segment + 1]);
+    }
+    if (best == at) {
+        for (auto p = earlier.rbegin(); p != earlier.rend() && at.x - p->x < 3.0 * same_point_m; ++p) {
+            offer(*p);
+        }
+    }
+    return best;
+}
+
+constexpr std::size_t no_owner = std::numeric_limits<std::size_t>::max();
+
+struct Hash {
+    static std::size_t mix(std::uint64_t a, std::uint64_t b) {
+        std::uint64_t h = (a ^ (b * 0x9e3779b97f4a7c15ULL)) * 0xbf58476d1ce4e5b9ULL;
+        return static_cast<std::size_t>(h ^ (h >> 29));
+    }
+    std::size_t operator()(Vec2 p) const {
+        return mix(std::bit_cast<std::uint64_t>(p.x), std::bit_cast<std::uint64_t>(p.y));
+    }
+    std::size_t operator()(std::pair<std::size_t, std::size_t> e) const { return mix(e.first, e.second); }
+};
+
+// Vertices numbered in the order of lines; bitwise equal positions are one vertex.
+struct Numbering {
+    std::vector<Vec2> at;
+    std::vector<std::vector<std::size_t>> of_line;
+};
+
+Numbering number(std::vector<RiverLine> const& lines) {
+    Numbering numbering;
+    std::unordered_map<Vec2, std::size_t, Hash> known;
+    for (auto const& line : lines) {
+        auto& numbers = numbering.of_line.emplace_back();
+        for (auto const& v : line.vertices) {
+            auto const [entry, fresh] = known.try_emplace(Vec2{v.x, v.y}, numbering.at.size());
+            if (fresh) {
+                numbering.at.push_back(entry->first);
+            }
+            numbers.push_back(entry->second);
+        }
+    }
+    return numbering;
+}
+
+// For every segment of every line: the first line with that segment.
+std::vector<std::vector<std::size_t>> owners_of(Numbering const& numbering) {
+    std::unordered_map<std::pair<std::size_t, std::size_t>, std::size_t, Hash> known;
+    std::vector<std::vector<std::size_t>> owners;
+    for (std::size_t l = 0; l < numbering.of_line.size(); ++l) {
+        auto const& v = numbering.of_line[l];
+        auto& of_line = owners.emplace_back();
+        for (std::size_t i = 0; i + 1 < v.size(); ++i) {
+            auto const [entry, fresh] = known.try_emplace(std::minmax(v[i], v[i + 1]), l);
+            of_line.push_back(fresh ? no_owner : entry->second);
+        }
+    }
+    return owners;
+}
+
+/// The vertices of all lines, and how lines meet there.
+struct Junctions {
+    Numbering numbering;
+    std::vector<std::vector<std::size_t>> owners;
+    std::vector<int> degree;  ///< by vertex: number of segments, each counted for the first line that has it
+    std::vector<char> is_end; ///< by vertex: whether a line ends there
+};
+
+Junctions junctions_of(std::vector<RiverLine> const& lines) {
+    Junctions j{number(lines), {}, {}, {}};
+    j.owners = owners_of(j.numbering);
+    j.degree.assign(j.numbering.at.size(), 0);
+    j.is_end.assign(j.numbering.at.size(), 0);
+    for (std::size_t l = 0; l < lines.size(); ++l) {
+        auto const& v = j.numbering.of_line[l];
+        j.is_end[v.front()] = j.is_end[v.back()] = 1;
+        for (std::size_t i = 0; i + 1 < v.size(); ++i) {
+            if (j.owners[l][i] == no_owner) {
+                ++j.degree[v[i]];
+                ++j.degree[v[i + 1]];
+            }
+        }
+    }
+    return j;
+}
+
+/// Vertices first ... last of a line, between confluences and the ends of duplicated parts.
+struct Part {
+    std::size_t first;
+    std::size_t last;
+    double length;
+};
+
+Part part_from(Junctions const& j, std::size_t line, std::size_t first) {
+    auto const& v = j.numbering.of_line[line];
+    auto const& owners = j.owners[line];
+    std::size_t i = first;
+    double length = 0.0;
+    do {
+        length += distance(j.numbering.at[v[i]], j.numbering.at[v[i + 1]]);
+        ++i;
+    } while (i + 1 < v.size() && owners[i] == owners[first] &&
+             (owners[first] != no_owner || (j.degree[v[i]] == 2 && j.is_end[v[i]] == 0)));
+    return {first, i, length};
+}
+
+void leave_out(RiverLine const& line, Part const& part, RiverLine const& owner, Left& left) {
+    auto const begin = line.vertices.begin();
+    auto const& from = line.vertices[part.first];
+    left.secondary.push_back(
+        {line.feature,
+         {begin + static_cast<std::ptrdiff_t>(part.first), begin + static_cast<std::ptrdiff_t>(part.last) + 1},
+         "duplicate",
+         line.feature,
+         LeftOut::duplicate});
+    left.repairs.push_back({"duplicate", line.number(), Vec2{from.x, from.y}, part.length,
+                            fmt::format("river {} repeats river {} for {:.6g} m; that part is left out", line.number(),
+                                        owner.number(), part.length)});
+}
+
+/// Drops the beginning of a line that passes the first river it meets by at most most_m.
+void drop_overshoot(RiverLine& line, std::vector<std::size_t>& numbers, Junctions const& j, double most_m, Left& left) {
+    std::size_t i = 0;
+    double length_m = 0.0;
+    while (i + 1 < numbers.size() && j.degree[numbers[i]] == (i == 0 ? 1 : 2)) {
+        length_m += distance(j.numbering.at[numbers[i]], j.numbering.at[numbers[i + 1]]);
+        ++i;
+    }
+    if (i == 0 || i + 1 >= numbers.size() || length_m > most_m) {
+        return;
+    }
+    Vec2 const at = j.numbering.at[numbers[i]];
+    auto const begin = line.vertices.begin();
+    auto const end = static_cast<std::ptrdiff_t>(i);
+    left.repairs.push_back({"cut", line.number(), at, length_m,
+                            fmt::format("river {} passes the river that it meets at ({:.6f}, {:.6f}) by {:.3g} m; that "
+                                        "end is removed",
+                                        line.number(), at.x, at.y, length_m)});
+    left.secondary.push_back(
+        {line.feature, {begin, begin + end + 1}, "passes the river that it meets", line.feature, LeftOut::too_short});
+    line.vertices.erase(begin, begin + end);
+    numbers.erase(numbers.begin(), numbers.begin() + end);
+}
+
 } // namespace
 
 double diagonal_of(std::vector<RiverLine> const& lines) {
@@ -298,41 +463,6 @@ void snap(std::vector<RiverLine>& lines, double snap_m, SnappedEnds snapped, Lef
     erase_marked(lines, is_gone);
 }
 
-namespace {
-
-using geometry::Crossing;
-
-bool inside(Crossing const& c, std::vector<std::vector<Vec2>> const& plans) {
-    return c.at != plans[c.line][c.segment] && c.at != plans[c.line][c.segment + 1];
-}
-
-// The vertex for the lines of one crossing: an existing one or an earlier crossing if one is that close, so that no
-// segment is shorter than the precision of coordinates.
-Vec2 meeting(std::vector<Crossing const*> const& group, std::vector<std::vector<Vec2>> const& plans,
-             std::vector<Vec2> const& earlier) {
-    Vec2 const at = group.front()->at;
-    Vec2 best = at;
-    double least = same_point_m;
-    auto const offer = [&](Vec2 p) {
-        if (double const d = distance(at, p); d < least) {
-            least = d;
-            best = p;
-        }
-    };
-    for (auto const* c : group) {
-        offer(plans[c->line][c->segment]);
-        offer(plans[c->line][c->segment + 1]);
-    }
-    if (best == at) {
-        for (auto p = earlier.rbegin(); p != earlier.rend() && at.x - p->x < 3.0 * same_point_m; ++p) {
-            offer(*p);
-        }
-    }
-    return best;
-}
-
-} // namespace
-
 void split(std::vector<RiverLine>& lines, Run const& run) {
     // Rounding a crossing bends its lines by less than a millionth of a millimetre, which matters only if a third line
     // is as close: the second round nearly always finds nothing.
@@ -379,144 +509,6 @@ void split(std::vector<RiverLine>& lines, Run const& run) {
                     "cannot be told apart; remove one of them there",
                     unsettled.x, unsettled.y));
 }
-
-namespace {
-
-constexpr std::size_t no_owner = std::numeric_limits<std::size_t>::max();
-
-struct Hash {
-    static std::size_t mix(std::uint64_t a, std::uint64_t b) {
-        std::uint64_t h = (a ^ (b * 0x9e3779b97f4a7c15ULL)) * 0xbf58476d1ce4e5b9ULL;
-        return static_cast<std::size_t>(h ^ (h >> 29));
-    }
-    std::size_t operator()(Vec2 p) const {
-        return mix(std::bit_cast<std::uint64_t>(p.x), std::bit_cast<std::uint64_t>(p.y));
-    }
-    std::size_t operator()(std::pair<std::size_t, std::size_t> e) const { return mix(e.first, e.second); }
-};
-
-// Vertices numbered in the order of lines; bitwise equal positions are one vertex.
-struct Numbering {
-    std::vector<Vec2> at;
-    std::vector<std::vector<std::size_t>> of_line;
-};
-
-Numbering number(std::vector<RiverLine> const& lines) {
-    Numbering numbering;
-    std::unordered_map<Vec2, std::size_t, Hash> known;
-    for (auto const& line : lines) {
-        auto& numbers = numbering.of_line.emplace_back();
-        for (auto const& v : line.vertices) {
-            auto const [entry, fresh] = known.try_emplace(Vec2{v.x, v.y}, numbering.at.size());
-            if (fresh) {
-                numbering.at.push_back(entry->first);
-            }
-            numbers.push_back(entry->second);
-        }
-    }
-    return numbering;
-}
-
-// For every segment of every line: the first line with that segment.
-std::vector<std::vector<std::size_t>> owners_of(Numbering const& numbering) {
-    std::unordered_map<std::pair<std::size_t, std::size_t>, std::size_t, Hash> known;
-    std::vector<std::vector<std::size_t>> owners;
-    for (std::size_t l = 0; l < numbering.of_line.size(); ++l) {
-        auto const& v = numbering.of_line[l];
-        auto& of_line = owners.emplace_back();
-        for (std::size_t i = 0; i + 1 < v.size(); ++i) {
-            auto const [entry, fresh] = known.try_emplace(std::minmax(v[i], v[i + 1]), l);
-            of_line.push_back(fresh ? no_owner : entry->second);
-        }
-    }
-    return owners;
-}
-
-/// The vertices of all lines, and how lines meet there.
-struct Junctions {
-    Numbering numbering;
-    std::vector<std::vector<std::size_t>> owners;
-    std::vector<int> degree;  ///< by vertex: number of segments, each counted for the first line that has it
-    std::vector<char> is_end; ///< by vertex: whether a line ends there
-};
-
-Junctions junctions_of(std::vector<RiverLine> const& lines) {
-    Junctions j{number(lines), {}, {}, {}};
-    j.owners = owners_of(j.numbering);
-    j.degree.assign(j.numbering.at.size(), 0);
-    j.is_end.assign(j.numbering.at.size(), 0);
-    for (std::size_t l = 0; l < lines.size(); ++l) {
-        auto const& v = j.numbering.of_line[l];
-        j.is_end[v.front()] = j.is_end[v.back()] = 1;
-        for (std::size_t i = 0; i + 1 < v.size(); ++i) {
-            if (j.owners[l][i] == no_owner) {
-                ++j.degree[v[i]];
-                ++j.degree[v[i + 1]];
-            }
-        }
-    }
-    return j;
-}
-
-/// Vertices first ... last of a line, between confluences and the ends of duplicated parts.
-struct Part {
-    std::size_t first;
-    std::size_t last;
-    double length;
-};
-
-Part part_from(Junctions const& j, std::size_t line, std::size_t first) {
-    auto const& v = j.numbering.of_line[line];
-    auto const& owners = j.owners[line];
-    std::size_t i = first;
-    double length = 0.0;
-    do {
-        length += distance(j.numbering.at[v[i]], j.numbering.at[v[i + 1]]);
-        ++i;
-    } while (i + 1 < v.size() && owners[i] == owners[first] &&
-             (owners[first] != no_owner || (j.degree[v[i]] == 2 && j.is_end[v[i]] == 0)));
-    return {first, i, length};
-}
-
-void leave_out(RiverLine const& line, Part const& part, RiverLine const& owner, Left& left) {
-    auto const begin = line.vertices.begin();
-    auto const& from = line.vertices[part.first];
-    left.secondary.push_back(
-        {line.feature,
-         {begin + static_cast<std::ptrdiff_t>(part.first), begin + static_cast<std::ptrdiff_t>(part.last) + 1},
-         "duplicate",
-         line.feature,
-         LeftOut::duplicate});
-    left.repairs.push_back({"duplicate", line.number(), Vec2{from.x, from.y}, part.length,
-                            fmt::format("river {} repeats river {} for {:.6g} m; that part is left out", line.number(),
-                                        owner.number(), part.length)});
-}
-
-/// Drops the beginning of a line that passes the first river it meets by at most most_m.
-void drop_overshoot(RiverLine& line, std::vector<std::size_t>& numbers, Junctions const& j, double most_m, Left& left) {
-    std::size_t i = 0;
-    double length_m = 0.0;
-    while (i + 1 < numbers.size() && j.degree[numbers[i]] == (i == 0 ? 1 : 2)) {
-        length_m += distance(j.numbering.at[numbers[i]], j.numbering.at[numbers[i + 1]]);
-        ++i;
-    }
-    if (i == 0 || i + 1 >= numbers.size() || length_m > most_m) {
-        return;
-    }
-    Vec2 const at = j.numbering.at[numbers[i]];
-    auto const begin = line.vertices.begin();
-    auto const end = static_cast<std::ptrdiff_t>(i);
-    left.repairs.push_back({"cut", line.number(), at, length_m,
-                            fmt::format("river {} passes the river that it meets at ({:.6f}, {:.6f}) by {:.3g} m; that "
-                                        "end is removed",
-                                        line.number(), at.x, at.y, length_m)});
-    left.secondary.push_back(
-        {line.feature, {begin, begin + end + 1}, "passes the river that it meets", line.feature, LeftOut::too_short});
-    line.vertices.erase(begin, begin + end);
-    numbers.erase(numbers.begin(), numbers.begin() + end);
-}
-
-} // namespace
 
 void drop_overshoots(std::vector<RiverLine>& lines, double most_m, Left& left) {
     Junctions j = junctions_of(lines);

@@ -266,55 +266,6 @@ void find_blocks(ReachGraph& graph) {
     }
 }
 
-} // namespace
-
-ReachGraph reaches_of(Pieces const& p, std::vector<RiverLine> const& lines, Votes const& certain,
-                      Raster<float> const* dem) {
-    ReachGraph graph;
-    graph.is_outlet = likely_outlets(p, lines, certain, dem);
-    graph.reaches = ReachMaker(p, lines, graph.is_outlet).make();
-    graph.at.resize(p.nodes.size());
-    std::vector<double> lengths;
-    std::vector<double> segments;
-    for (std::size_t k = 0; k < graph.reaches.size(); ++k) {
-        Reach const& r = graph.reaches[k];
-        lengths.push_back(r.length_m);
-        for (std::size_t i = 1; i < r.line.size(); ++i) {
-            segments.push_back(distance(r.line[i - 1], r.line[i]));
-        }
-        if (r.from != r.to) {
-            graph.at[r.from].push_back({k, r.to, 1});
-            graph.at[r.to].push_back({k, r.from, -1});
-        }
-    }
-    for (auto& ways : graph.at) {
-        std::ranges::sort(ways, {}, [&](Way const& way) {
-            auto const& line = graph.reaches[way.reach].line;
-            Vec2 const next = way.sign > 0 ? line[1] : line[line.size() - 2];
-            return std::tuple(next.x, next.y, graph.reaches[way.reach].length_m);
-        });
-    }
-    graph.median_m = median_of(std::move(lengths));
-    graph.segment_m = median_of(std::move(segments));
-    find_groups(p, graph);
-    find_bridges(graph);
-    find_blocks(graph);
-    return graph;
-}
-
-Vec2 point_along(std::vector<Vec2> const& line, double along_m) {
-    for (std::size_t i = 1; i < line.size(); ++i) {
-        double const m = distance(line[i - 1], line[i]);
-        if (along_m < m) {
-            return line[i - 1] + (along_m / m) * (line[i] - line[i - 1]);
-        }
-        along_m -= m;
-    }
-    return line.back();
-}
-
-namespace {
-
 // Log-odds of the true root, fitted to 16 networks: docs/algorithms/river_directions.md.
 constexpr double near_scale = 0.1; // relative to the median reach
 constexpr double far_scale = 1.0;
@@ -381,6 +332,51 @@ double low_at(Raster<float> const& dem, Vec2 at) {
 }
 
 } // namespace
+
+ReachGraph reaches_of(Pieces const& p, std::vector<RiverLine> const& lines, Votes const& certain,
+                      Raster<float> const* dem) {
+    ReachGraph graph;
+    graph.is_outlet = likely_outlets(p, lines, certain, dem);
+    graph.reaches = ReachMaker(p, lines, graph.is_outlet).make();
+    graph.at.resize(p.nodes.size());
+    std::vector<double> lengths;
+    std::vector<double> segments;
+    for (std::size_t k = 0; k < graph.reaches.size(); ++k) {
+        Reach const& r = graph.reaches[k];
+        lengths.push_back(r.length_m);
+        for (std::size_t i = 1; i < r.line.size(); ++i) {
+            segments.push_back(distance(r.line[i - 1], r.line[i]));
+        }
+        if (r.from != r.to) {
+            graph.at[r.from].push_back({k, r.to, 1});
+            graph.at[r.to].push_back({k, r.from, -1});
+        }
+    }
+    for (auto& ways : graph.at) {
+        std::ranges::sort(ways, {}, [&](Way const& way) {
+            auto const& line = graph.reaches[way.reach].line;
+            Vec2 const next = way.sign > 0 ? line[1] : line[line.size() - 2];
+            return std::tuple(next.x, next.y, graph.reaches[way.reach].length_m);
+        });
+    }
+    graph.median_m = median_of(std::move(lengths));
+    graph.segment_m = median_of(std::move(segments));
+    find_groups(p, graph);
+    find_bridges(graph);
+    find_blocks(graph);
+    return graph;
+}
+
+Vec2 point_along(std::vector<Vec2> const& line, double along_m) {
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        double const m = distance(line[i - 1], line[i]);
+        if (along_m < m) {
+            return line[i - 1] + (along_m / m) * (line[i] - line[i - 1]);
+        }
+        along_m -= m;
+    }
+    return line.back();
+}
 
 RootScores::Sums& RootScores::Sums::operator+=(Sums const& o) {
     shape += o.shape;

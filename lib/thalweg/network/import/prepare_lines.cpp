@@ -74,38 +74,6 @@ std::vector<WayPoint> turning_points(std::vector<WayPoint> const& all) {
     return places;
 }
 
-} // namespace
-
-RiverLines clip_lines(RiverLines const& lines, Mask const& land) {
-    RiverLines out = lines;
-    out.lines.clear();
-    for (RiverLine const& line : lines.lines) {
-        std::vector<WayPoint> const places = turning_points(way_points(line.vertices, land));
-        for (std::size_t begin = 0, end = 0; begin < places.size(); begin = end) {
-            bool const is_in = places[begin].is_in;
-            while (end < places.size() && places[end].is_in == is_in) {
-                ++end;
-            }
-            std::size_t const first = is_in || begin == 0 ? begin : begin - 1; // what is beyond reaches to the pieces
-            std::size_t const last = is_in || end == places.size() ? end : end + 1;
-            std::vector<Vec3> vertices;
-            for (std::size_t i = first; i < last; ++i) {
-                vertices.push_back(places[i].at);
-            }
-            if (vertices.size() > 1 && is_in) {
-                RiverLine& piece = out.lines.emplace_back(line);
-                piece.vertices = std::move(vertices);
-            } else if (vertices.size() > 1) {
-                out.secondary.push_back(
-                    {line.feature, std::move(vertices), "beyond the terrain", line.feature, LeftOut::grid});
-            }
-        }
-    }
-    return out;
-}
-
-namespace {
-
 std::vector<Vec2> plan_of(std::vector<Vec3> const& line) {
     std::vector<Vec2> result;
     for (Vec3 const p : line) {
@@ -164,6 +132,34 @@ std::vector<Vec3> without_returns(std::vector<Vec3> const& line) {
 }
 
 } // namespace
+
+RiverLines clip_lines(RiverLines const& lines, Mask const& land) {
+    RiverLines out = lines;
+    out.lines.clear();
+    for (RiverLine const& line : lines.lines) {
+        std::vector<WayPoint> const places = turning_points(way_points(line.vertices, land));
+        for (std::size_t begin = 0, end = 0; begin < places.size(); begin = end) {
+            bool const is_in = places[begin].is_in;
+            while (end < places.size() && places[end].is_in == is_in) {
+                ++end;
+            }
+            std::size_t const first = is_in || begin == 0 ? begin : begin - 1; // what is beyond reaches to the pieces
+            std::size_t const last = is_in || end == places.size() ? end : end + 1;
+            std::vector<Vec3> vertices;
+            for (std::size_t i = first; i < last; ++i) {
+                vertices.push_back(places[i].at);
+            }
+            if (vertices.size() > 1 && is_in) {
+                RiverLine& piece = out.lines.emplace_back(line);
+                piece.vertices = std::move(vertices);
+            } else if (vertices.size() > 1) {
+                out.secondary.push_back(
+                    {line.feature, std::move(vertices), "beyond the terrain", line.feature, LeftOut::grid});
+            }
+        }
+    }
+    return out;
+}
 
 CutLine cut_loops(std::vector<Vec3> const& line, double near_m) {
     CutLine cut{without_spikes(line, near_m), 0.0};

@@ -55,52 +55,6 @@ void add_arc_points(Stems& out, std::vector<Vec2> const& line, double area_m2, d
     }
 }
 
-} // namespace
-
-EvenSteps steps_between(Vec2 from, Vec2 to, double step_m) {
-    // Diagonal steps of a lattice are not subdivided.
-    double const count = std::ceil(distance(from, to) / (1.5 * step_m));
-    return {count, {(to.x - from.x) / count, (to.y - from.y) / count}};
-}
-
-Stems stems_of(StreamNetwork const& network, std::vector<double> const& area_m2, double step_m) {
-    Stems out;
-    out.first_point.resize(network.arc_count());
-    out.last_point.resize(network.arc_count());
-    out.node_point.resize(network.node_count());
-    std::vector<ArcId> const main = main_arcs(network, area_m2);
-    for (NodeId const mouth : network.upstream_order()) { // every stem after its receiver
-        bool const is_outlet = network.out(mouth) == no_arc;
-        std::vector<ArcId> arriving(network.in(mouth).begin(), network.in(mouth).end());
-        std::stable_partition(arriving.begin(), arriving.end(), [&](ArcId a) { return a == main[mouth]; });
-        for (ArcId const last : arriving) {
-            if (!is_outlet && last == main[mouth]) {
-                continue; // in the middle of a stem
-            }
-            std::vector<ArcId> arcs;
-            for (ArcId a = last; a != no_arc; a = main[network.from(a)]) {
-                arcs.push_back(a);
-            }
-            std::reverse(arcs.begin(), arcs.end());
-            bool const owns_mouth = is_outlet && last == main[mouth];
-            out.stems.push_back({out.at.size(), 0, network.from(arcs.front()), mouth, !owns_mouth});
-            for (std::size_t const a : arcs) {
-                add_arc_points(out, network.arc(a).line, area_m2[a], step_m);
-                out.last_point[a] = out.at.size() - 1;
-                out.first_point[a] = a == arcs.front() ? out.stems.back().begin : out.node_point[network.from(a)];
-                out.node_point[network.from(a)] = out.first_point[a];
-                if (a != arcs.back() || owns_mouth) {
-                    out.node_point[network.to(a)] = out.last_point[a];
-                }
-            }
-            out.stems.back().end = out.at.size();
-        }
-    }
-    return out;
-}
-
-namespace {
-
 constexpr std::uint64_t stage_plain = 0x6265'6e64;    // "bend"
 constexpr std::uint64_t stage_river = 0x7761'6e64;    // "wand"
 constexpr std::uint64_t stage_reach = 0x7265'6163;    // "reac"
@@ -346,7 +300,73 @@ Kind kind_of(MeanderKind which) {
     return {stage_straight, 0.7, 1.0};
 }
 
+constexpr std::uint64_t stage_lean = 0x6c65'616e; // "lean"
+constexpr double near_mouth = 10.0;               // [cells] over which angles are measured
+constexpr double far_from_mouth = 40.0;           // [cells]
+
+/// The nearest point of a river at this distance upstream of another one, or its first.
+std::size_t above(Stems const& stems, std::size_t from, std::size_t begin, double way) {
+    std::size_t i = from;
+    while (i > begin && stems.way_m[from] - stems.way_m[i] < way) {
+        --i;
+    }
+    return i;
+}
+
+/// Angle [radians] by which a tributary turns about its mouth, counterclockwise.
+double turn_of(Stems const& stems, std::vector<Vec2> const& at, Stem const& stem, double cell_m, double widest) {
+    std::size_t const mouth = stems.node_point[stem.mouth];
+    Stem const& larger = stems.stems[stems.stem_of[mouth]];
+    Vec2 const up_larger = at[above(stems, mouth, larger.begin, near_mouth * cell_m)];
+    Vec2 const up = at[above(stems, stem.end - 1, stem.begin, near_mouth * cell_m)];
+    double const angle = portable::atan2(cross(at[mouth], up, up_larger), dot(up - at[mouth], up_larger - at[mouth]));
+    double const over = std::fabs(angle) - widest;
+    return over > 0.0 ? std::copysign(over, angle) : 0.0;
+}
+
 } // namespace
+
+EvenSteps steps_between(Vec2 from, Vec2 to, double step_m) {
+    // Diagonal steps of a lattice are not subdivided.
+    double const count = std::ceil(distance(from, to) / (1.5 * step_m));
+    return {count, {(to.x - from.x) / count, (to.y - from.y) / count}};
+}
+
+Stems stems_of(StreamNetwork const& network, std::vector<double> const& area_m2, double step_m) {
+    Stems out;
+    out.first_point.resize(network.arc_count());
+    out.last_point.resize(network.arc_count());
+    out.node_point.resize(network.node_count());
+    std::vector<ArcId> const main = main_arcs(network, area_m2);
+    for (NodeId const mouth : network.upstream_order()) { // every stem after its receiver
+        bool const is_outlet = network.out(mouth) == no_arc;
+        std::vector<ArcId> arriving(network.in(mouth).begin(), network.in(mouth).end());
+        std::stable_partition(arriving.begin(), arriving.end(), [&](ArcId a) { return a == main[mouth]; });
+        for (ArcId const last : arriving) {
+            if (!is_outlet && last == main[mouth]) {
+                continue; // in the middle of a stem
+            }
+            std::vector<ArcId> arcs;
+            for (ArcId a = last; a != no_arc; a = main[network.from(a)]) {
+                arcs.push_back(a);
+            }
+            std::reverse(arcs.begin(), arcs.end());
+            bool const owns_mouth = is_outlet && last == main[mouth];
+            out.stems.push_back({out.at.size(), 0, network.from(arcs.front()), mouth, !owns_mouth});
+            for (std::size_t const a : arcs) {
+                add_arc_points(out, network.arc(a).line, area_m2[a], step_m);
+                out.last_point[a] = out.at.size() - 1;
+                out.first_point[a] = a == arcs.front() ? out.stems.back().begin : out.node_point[network.from(a)];
+                out.node_point[network.from(a)] = out.first_point[a];
+                if (a != arcs.back() || owns_mouth) {
+                    out.node_point[network.to(a)] = out.last_point[a];
+                }
+            }
+            out.stems.back().end = out.at.size();
+        }
+    }
+    return out;
+}
 
 Raster<std::uint8_t> distance_to_fixed(StreamNetwork const& network, Grid const& grid, Mask const& land) {
     auto const far = static_cast<std::uint8_t>(margin);
@@ -472,34 +492,6 @@ std::vector<Vec2> meander_shifts(Stems const& stems, std::vector<Vec2> const& at
     }
     return out;
 }
-
-namespace {
-
-constexpr std::uint64_t stage_lean = 0x6c65'616e; // "lean"
-constexpr double near_mouth = 10.0;               // [cells] over which angles are measured
-constexpr double far_from_mouth = 40.0;           // [cells]
-
-/// The nearest point of a river at this distance upstream of another one, or its first.
-std::size_t above(Stems const& stems, std::size_t from, std::size_t begin, double way) {
-    std::size_t i = from;
-    while (i > begin && stems.way_m[from] - stems.way_m[i] < way) {
-        --i;
-    }
-    return i;
-}
-
-/// Angle [radians] by which a tributary turns about its mouth, counterclockwise.
-double turn_of(Stems const& stems, std::vector<Vec2> const& at, Stem const& stem, double cell_m, double widest) {
-    std::size_t const mouth = stems.node_point[stem.mouth];
-    Stem const& larger = stems.stems[stems.stem_of[mouth]];
-    Vec2 const up_larger = at[above(stems, mouth, larger.begin, near_mouth * cell_m)];
-    Vec2 const up = at[above(stems, stem.end - 1, stem.begin, near_mouth * cell_m)];
-    double const angle = portable::atan2(cross(at[mouth], up, up_larger), dot(up - at[mouth], up_larger - at[mouth]));
-    double const over = std::fabs(angle) - widest;
-    return over > 0.0 ? std::copysign(over, angle) : 0.0;
-}
-
-} // namespace
 
 std::vector<Vec2> lean_in(Stems const& stems, std::vector<Vec2> const& at, double cell_m, std::uint64_t seed) {
     std::vector<Vec2> out(at.size());

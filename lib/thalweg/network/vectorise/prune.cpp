@@ -169,6 +169,24 @@ std::string readable_floor(double x) {
     return hundredths > 0.0 ? fmt::format("{}", hundredths) : fmt::format("{}", x);
 }
 
+constexpr double of_cell = 1e-6; // centres of cells far from the origin are rounded
+
+bool is_one(double step, double cell_m) {
+    return std::fabs(std::fabs(step) - cell_m) <= of_cell * cell_m;
+}
+
+bool is_none(double step, double cell_m) {
+    return std::fabs(step) <= of_cell * cell_m;
+}
+
+bool is_corner(Vec2 a, Vec2 b, Vec2 c, double cell_m) {
+    bool const across = is_one(b.x - a.x, cell_m) && is_none(b.y - a.y, cell_m) && is_none(c.x - b.x, cell_m) &&
+                        is_one(c.y - b.y, cell_m);
+    bool const along = is_none(b.x - a.x, cell_m) && is_one(b.y - a.y, cell_m) && is_one(c.x - b.x, cell_m) &&
+                       is_none(c.y - b.y, cell_m);
+    return across || along;
+}
+
 } // namespace
 
 Pruned prune(StreamNetwork const& network, PruneParams const& params, Run const& run) {
@@ -244,28 +262,6 @@ KeptArcs keep_arcs(StreamNetwork const& network, std::vector<std::int64_t> const
     }
     return out;
 }
-
-namespace {
-
-constexpr double of_cell = 1e-6; // centres of cells far from the origin are rounded
-
-bool is_one(double step, double cell_m) {
-    return std::fabs(std::fabs(step) - cell_m) <= of_cell * cell_m;
-}
-
-bool is_none(double step, double cell_m) {
-    return std::fabs(step) <= of_cell * cell_m;
-}
-
-bool is_corner(Vec2 a, Vec2 b, Vec2 c, double cell_m) {
-    bool const across = is_one(b.x - a.x, cell_m) && is_none(b.y - a.y, cell_m) && is_none(c.x - b.x, cell_m) &&
-                        is_one(c.y - b.y, cell_m);
-    bool const along = is_none(b.x - a.x, cell_m) && is_one(b.y - a.y, cell_m) && is_one(c.x - b.x, cell_m) &&
-                       is_none(c.y - b.y, cell_m);
-    return across || along;
-}
-
-} // namespace
 
 StreamNetwork cut_corners(StreamNetwork const& network, double cell_m, Run const& run) {
     require_in("network.cut_corners", "cell", cell_m, Range::above(0.0), "m");

@@ -144,51 +144,6 @@ CoarseLevel level_of(Equations const& from, Run const& run) {
     return level;
 }
 
-} // namespace
-
-TopLevel top_level(Raster<std::uint8_t> const& kind, Run const& run) {
-    TopLevel top;
-    top.board = {kind.width(), kind.height()};
-    top.degree = TwoColours<std::uint8_t>(top.board);
-    Padded<std::uint8_t> const degree = degrees(kind, top.board, run);
-    parallel_ranges(run, top.board.height, 64, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t y = begin; y < end; ++y) {
-            split(degree.row(y), y, top.board, top.degree);
-        }
-    });
-    return top;
-}
-
-std::vector<CoarseLevel> coarse_levels(Raster<std::uint8_t> const& kind, Run const& run) {
-    Board const top{kind.width(), kind.height()};
-    std::vector<CoarseLevel> levels;
-    Equations equations = [&] {
-        Padded<std::uint8_t> const degree = degrees(kind, top, run);
-        auto const both = [](std::uint8_t a, std::uint8_t b) { return a > 0 && b > 0 ? 1.0F : 0.0F; };
-        auto const east = [&](std::int64_t x, std::int64_t y) { return both(degree.row(y)[x], degree.row(y)[x + 1]); };
-        auto const south = [&](std::int64_t x, std::int64_t y) { return both(degree.row(y)[x], degree.row(y + 1)[x]); };
-        return sums(top, run, east, south, [&](std::int64_t x, std::int64_t y) {
-            float const back = (x > 0 ? east(x - 1, y) : 0.0F) + (y > 0 ? south(x, y - 1) : 0.0F);
-            return static_cast<float>(degree.row(y)[x]) - (east(x, y) + south(x, y) + back);
-        });
-    }();
-    levels.push_back(level_of(equations, run));
-    while (equations.board.width > 1 || equations.board.height > 1) {
-        Equations const& fine = equations;
-        equations = sums(
-            fine.board, run, [&](std::int64_t x, std::int64_t y) { return fine.east.row(y)[x]; },
-            [&](std::int64_t x, std::int64_t y) { return fine.south.row(y)[x]; },
-            [&](std::int64_t x, std::int64_t y) { return fine.fixed.row(y)[x]; });
-        levels.push_back(level_of(equations, run));
-    }
-    for (std::size_t i = 0; i < std::min(levels_solved_twice, levels.size()); ++i) {
-        levels[i].next = TwoColours<float>(levels[i].board);
-    }
-    return levels;
-}
-
-namespace {
-
 constexpr float over_correction = 1.0F; // none: the coarser levels' edges are weaker instead
 constexpr int red = 0;
 constexpr int black = 1;
@@ -513,6 +468,47 @@ private:
 };
 
 } // namespace
+
+TopLevel top_level(Raster<std::uint8_t> const& kind, Run const& run) {
+    TopLevel top;
+    top.board = {kind.width(), kind.height()};
+    top.degree = TwoColours<std::uint8_t>(top.board);
+    Padded<std::uint8_t> const degree = degrees(kind, top.board, run);
+    parallel_ranges(run, top.board.height, 64, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t y = begin; y < end; ++y) {
+            split(degree.row(y), y, top.board, top.degree);
+        }
+    });
+    return top;
+}
+
+std::vector<CoarseLevel> coarse_levels(Raster<std::uint8_t> const& kind, Run const& run) {
+    Board const top{kind.width(), kind.height()};
+    std::vector<CoarseLevel> levels;
+    Equations equations = [&] {
+        Padded<std::uint8_t> const degree = degrees(kind, top, run);
+        auto const both = [](std::uint8_t a, std::uint8_t b) { return a > 0 && b > 0 ? 1.0F : 0.0F; };
+        auto const east = [&](std::int64_t x, std::int64_t y) { return both(degree.row(y)[x], degree.row(y)[x + 1]); };
+        auto const south = [&](std::int64_t x, std::int64_t y) { return both(degree.row(y)[x], degree.row(y + 1)[x]); };
+        return sums(top, run, east, south, [&](std::int64_t x, std::int64_t y) {
+            float const back = (x > 0 ? east(x - 1, y) : 0.0F) + (y > 0 ? south(x, y - 1) : 0.0F);
+            return static_cast<float>(degree.row(y)[x]) - (east(x, y) + south(x, y) + back);
+        });
+    }();
+    levels.push_back(level_of(equations, run));
+    while (equations.board.width > 1 || equations.board.height > 1) {
+        Equations const& fine = equations;
+        equations = sums(
+            fine.board, run, [&](std::int64_t x, std::int64_t y) { return fine.east.row(y)[x]; },
+            [&](std::int64_t x, std::int64_t y) { return fine.south.row(y)[x]; },
+            [&](std::int64_t x, std::int64_t y) { return fine.fixed.row(y)[x]; });
+        levels.push_back(level_of(equations, run));
+    }
+    for (std::size_t i = 0; i < std::min(levels_solved_twice, levels.size()); ++i) {
+        levels[i].next = TwoColours<float>(levels[i].board);
+    }
+    return levels;
+}
 
 Convergence conjugate_gradients(ColouredProblem& problem, std::vector<CoarseLevel>& levels, double zero,
                                 Goal const& goal, GridRows const& rows, Run const& run) {

@@ -51,36 +51,6 @@ void add_spans(Raster<std::uint8_t> const& kind, std::int64_t row, Parts& parts)
     }
 }
 
-} // namespace
-
-std::vector<CellSpan> unreached(Raster<std::uint8_t> const& kind, Run const& run) {
-    Parts parts;
-    std::size_t above = 0; // first span of the row above
-    for (std::int64_t row = 0; row < kind.height(); ++row) {
-        if (row % 512 == 0) {
-            run.check();
-        }
-        std::size_t const here = parts.spans.size();
-        add_spans(kind, row, parts);
-        for (std::size_t a = above, b = here; a < here && b < parts.spans.size();) {
-            if (parts.spans[a].begin < parts.spans[b].end && parts.spans[b].begin < parts.spans[a].end) {
-                parts.join(a, b);
-            }
-            ++(parts.spans[a].end < parts.spans[b].end ? a : b);
-        }
-        above = here;
-    }
-    std::vector<CellSpan> found;
-    for (std::size_t i = 0; i < parts.spans.size(); ++i) {
-        if (parts.has_fixed[parts.root(i)] == 0) {
-            found.push_back(parts.spans[i]);
-        }
-    }
-    return found;
-}
-
-namespace {
-
 Contents contents(GridProblem const& problem, Run const& run) {
     bool const laplace = problem.source.cells() == 0;
     std::int64_t const width = problem.kind.width();
@@ -182,7 +152,110 @@ void spread_guess(GridProblem const& problem, ColouredProblem& coloured, Run con
     spread(problem, FreeCells::guess, coloured.x, run);
 }
 
+// Even, so that a block's rows have the grid's colours.
+constexpr std::int64_t block_rows = 32;
+constexpr int sweeps_a_pass = 4; // recomputing the rows around a block costs less than leaving the cache
+
+void require(GridProblem const& problem, ExplicitParams const& params) {
+    refuse_if<BadParameter>(!(params.alpha > 0.0 && params.alpha <= 0.25),
+                            "solver.relax_explicit: alpha is {}; it must be greater than 0 and at most 1/4, for beyond "
+                            "it sweeps make the differences between cells grow",
+                            params.alpha);
+    require_in("solver.relax_explicit", "sweeps", params.sweeps, Range::at_least(0));
+    refuse_if<BadInput>(problem.source.cells() > 0,
+                        "solver.relax_explicit: the problem has a source; solve_poisson takes one");
+}
+
+/// A block of rows and its surrounding rows, before and after a sweep.
+struct Block {
+    explicit Block(std::int64_t width)
+        : board{width, block_rows + 2 * std::int64_t{sweeps_a_pass}}, before(board), after(board) {}
+    Board board;
+    TwoColours<double> before, after;
+};
+
+/// Makes several sweeps over the rows [begin, end) of `from`, into `to`.
+void sweep_block(TopLevel const& top, TwoColours<double> const& from, TwoColours<double>& to, std::int64_t begin,
+                 std::int64_t sweeps, double alpha, Block& block, GridRows const& rows) {
+    std::int64_t const n = top.board.half();
+    std::int64_t const height = top.board.height;
+    std::int64_t const base = begin - sweeps_a_pass;
+    std::int64_t const end = std::min(height, begin + block_rows);
+    for (std::int64_t y = base; y < base + block.board.height; ++y) {
+        for (std::size_t const colour : {0U, 1U}) {
+            double* const before = block.before.of[colour].row(y - base);
+            if (y >= 0 && y < height) {
+                std::copy_n(from.of[colour].row(y), n, before);
+            } else {
+                std::fill_n(before, n, 0.0);
+                std::fill_n(block.after.of[colour].row(y - base), n, 0.0);
+            }
+        }
+    }
+    for (std::int64_t left = sweeps; left-- > 0;) {
+        for (std::int64_t y = std::max<std::int64_t>(0, begin - left); y < std::min(height, end + left); ++y) {
+            for (std::size_t const colour : {0U, 1U}) {
+                rows.diffuse(block.after.of[colour].row(y - base), block.before.of[colour].row(y - base),
+                             {top.degree.of[colour].row(y)},
+                             around(block.before.of[1 - colour], y - base, static_cast<std::int64_t>(colour)), alpha,
+                             n);
+            }
+        }
+        std::swap(block.before, block.after);
+    }
+    for (std::int64_t y = begin; y < end; ++y) {
+        for (std::size_t const colour : {0U, 1U}) {
+            std::copy_n(block.before.of[colour].row(y - base), n, to.of[colour].row(y));
+        }
+    }
+}
+
+void sweep(ColouredProblem& problem, ExplicitParams const& params, GridRows const& rows, Run const& run) {
+    Board const& board = problem.top.board;
+    TwoColours<double> next(board);
+    for (int done = 0; done < params.sweeps;) {
+        run.at(static_cast<double>(done) / static_cast<double>(params.sweeps), "diffuse");
+        int const now = std::min(sweeps_a_pass, params.sweeps - done);
+        parallel_ranges(
+            run, (board.height + block_rows - 1) / block_rows, 1, [&](std::int64_t first, std::int64_t last) {
+                Block block(board.width);
+                for (std::int64_t i = first; i < last; ++i) {
+                    sweep_block(problem.top, problem.x, next, i * block_rows, now, params.alpha, block, rows);
+                }
+            });
+        std::swap(problem.x, next);
+        done += now;
+    }
+    run.at(1.0, "diffuse");
+}
+
 } // namespace
+
+std::vector<CellSpan> unreached(Raster<std::uint8_t> const& kind, Run const& run) {
+    Parts parts;
+    std::size_t above = 0; // first span of the row above
+    for (std::int64_t row = 0; row < kind.height(); ++row) {
+        if (row % 512 == 0) {
+            run.check();
+        }
+        std::size_t const here = parts.spans.size();
+        add_spans(kind, row, parts);
+        for (std::size_t a = above, b = here; a < here && b < parts.spans.size();) {
+            if (parts.spans[a].begin < parts.spans[b].end && parts.spans[b].begin < parts.spans[a].end) {
+                parts.join(a, b);
+            }
+            ++(parts.spans[a].end < parts.spans[b].end ? a : b);
+        }
+        above = here;
+    }
+    std::vector<CellSpan> found;
+    for (std::size_t i = 0; i < parts.spans.size(); ++i) {
+        if (parts.has_fixed[parts.root(i)] == 0) {
+            found.push_back(parts.spans[i]);
+        }
+    }
+    return found;
+}
 
 Contents look_through(GridProblem const& problem, char const* stage, Run const& run) {
     require_one_frame(problem, stage);
@@ -287,87 +360,6 @@ GridSolution solve_poisson(GridProblem problem, PoissonParams const& params, Run
     solution.value = std::move(problem.value);
     return solution;
 }
-
-namespace {
-
-// Even, so that a block's rows have the grid's colours.
-constexpr std::int64_t block_rows = 32;
-constexpr int sweeps_a_pass = 4; // recomputing the rows around a block costs less than leaving the cache
-
-void require(GridProblem const& problem, ExplicitParams const& params) {
-    refuse_if<BadParameter>(!(params.alpha > 0.0 && params.alpha <= 0.25),
-                            "solver.relax_explicit: alpha is {}; it must be greater than 0 and at most 1/4, for beyond "
-                            "it sweeps make the differences between cells grow",
-                            params.alpha);
-    require_in("solver.relax_explicit", "sweeps", params.sweeps, Range::at_least(0));
-    refuse_if<BadInput>(problem.source.cells() > 0,
-                        "solver.relax_explicit: the problem has a source; solve_poisson takes one");
-}
-
-/// A block of rows and its surrounding rows, before and after a sweep.
-struct Block {
-    explicit Block(std::int64_t width)
-        : board{width, block_rows + 2 * std::int64_t{sweeps_a_pass}}, before(board), after(board) {}
-    Board board;
-    TwoColours<double> before, after;
-};
-
-/// Makes several sweeps over the rows [begin, end) of `from`, into `to`.
-void sweep_block(TopLevel const& top, TwoColours<double> const& from, TwoColours<double>& to, std::int64_t begin,
-                 std::int64_t sweeps, double alpha, Block& block, GridRows const& rows) {
-    std::int64_t const n = top.board.half();
-    std::int64_t const height = top.board.height;
-    std::int64_t const base = begin - sweeps_a_pass;
-    std::int64_t const end = std::min(height, begin + block_rows);
-    for (std::int64_t y = base; y < base + block.board.height; ++y) {
-        for (std::size_t const colour : {0U, 1U}) {
-            double* const before = block.before.of[colour].row(y - base);
-            if (y >= 0 && y < height) {
-                std::copy_n(from.of[colour].row(y), n, before);
-            } else {
-                std::fill_n(before, n, 0.0);
-                std::fill_n(block.after.of[colour].row(y - base), n, 0.0);
-            }
-        }
-    }
-    for (std::int64_t left = sweeps; left-- > 0;) {
-        for (std::int64_t y = std::max<std::int64_t>(0, begin - left); y < std::min(height, end + left); ++y) {
-            for (std::size_t const colour : {0U, 1U}) {
-                rows.diffuse(block.after.of[colour].row(y - base), block.before.of[colour].row(y - base),
-                             {top.degree.of[colour].row(y)},
-                             around(block.before.of[1 - colour], y - base, static_cast<std::int64_t>(colour)), alpha,
-                             n);
-            }
-        }
-        std::swap(block.before, block.after);
-    }
-    for (std::int64_t y = begin; y < end; ++y) {
-        for (std::size_t const colour : {0U, 1U}) {
-            std::copy_n(block.before.of[colour].row(y - base), n, to.of[colour].row(y));
-        }
-    }
-}
-
-void sweep(ColouredProblem& problem, ExplicitParams const& params, GridRows const& rows, Run const& run) {
-    Board const& board = problem.top.board;
-    TwoColours<double> next(board);
-    for (int done = 0; done < params.sweeps;) {
-        run.at(static_cast<double>(done) / static_cast<double>(params.sweeps), "diffuse");
-        int const now = std::min(sweeps_a_pass, params.sweeps - done);
-        parallel_ranges(
-            run, (board.height + block_rows - 1) / block_rows, 1, [&](std::int64_t first, std::int64_t last) {
-                Block block(board.width);
-                for (std::int64_t i = first; i < last; ++i) {
-                    sweep_block(problem.top, problem.x, next, i * block_rows, now, params.alpha, block, rows);
-                }
-            });
-        std::swap(problem.x, next);
-        done += now;
-    }
-    run.at(1.0, "diffuse");
-}
-
-} // namespace
 
 GridSolution relax_explicit(GridProblem problem, ExplicitParams const& params, Run const& run) {
     require(problem, params);

@@ -144,6 +144,49 @@ Found choose(std::vector<Found> const& all) {
         "solver.opencl_device: --device opencl: no device can be used: {}; leave --device out", lines_of(all)));
 }
 
+std::string build_log(cl_program program, cl_device_id device) {
+    std::size_t size = 0;
+    clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, 0, nullptr, &size);
+    std::string log(size, '\0');
+    clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, size, log.data(), nullptr);
+    while (!log.empty() && (log.back() == '\0' || log.back() == '\n')) {
+        log.pop_back();
+    }
+    return log;
+}
+
+cl_program build(OpenClDevice const& device, std::string const& stage, std::string_view source) {
+    char const* text = source.data();
+    std::size_t const length = source.size();
+    auto const id = static_cast<cl_device_id>(device.device);
+    cl_int code = CL_SUCCESS;
+    cl_program const program =
+        clCreateProgramWithSource(static_cast<cl_context>(device.context), 1, &text, &length, &code);
+    if (code == CL_SUCCESS) {
+        code = clBuildProgram(program, 1, &id, "-cl-std=CL1.2", nullptr, nullptr);
+    }
+    if (code != CL_SUCCESS) {
+        std::string const log = program == nullptr ? "" : build_log(program, id);
+        clReleaseProgram(program);
+        throw IoError(fmt::format("{}: the OpenCL device {} does not compile the kernels: {}; leave --device out\n{}",
+                                  stage, device.name, opencl_error_name(code), log));
+    }
+    return program;
+}
+
+/// Compiled once: it takes a driver from milliseconds to seconds.
+cl_program program_of(OpenClDevice const& device, std::string const& stage, std::string_view source) {
+    static std::mutex one_at_a_time;
+    static auto& built = *new std::map<std::pair<void*, std::string>, cl_program>; // never freed, like the devices
+    std::scoped_lock const lock(one_at_a_time);
+    std::pair const key{device.device, std::string(source)};
+    auto at = built.find(key);
+    if (at == built.end()) {
+        at = built.emplace(key, build(device, stage, source)).first;
+    }
+    return at->second;
+}
+
 } // namespace
 
 std::vector<std::string> opencl_devices() {
@@ -220,53 +263,6 @@ void check_device_memory(OpenClDevice const& device, char const* stage, std::int
                     stage, gigabytes(bytes), gigabytes(largest_bytes), device.name, gigabytes(device.memory_bytes),
                     gigabytes(device.largest_block_bytes)));
 }
-
-namespace {
-
-std::string build_log(cl_program program, cl_device_id device) {
-    std::size_t size = 0;
-    clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, 0, nullptr, &size);
-    std::string log(size, '\0');
-    clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, size, log.data(), nullptr);
-    while (!log.empty() && (log.back() == '\0' || log.back() == '\n')) {
-        log.pop_back();
-    }
-    return log;
-}
-
-cl_program build(OpenClDevice const& device, std::string const& stage, std::string_view source) {
-    char const* text = source.data();
-    std::size_t const length = source.size();
-    auto const id = static_cast<cl_device_id>(device.device);
-    cl_int code = CL_SUCCESS;
-    cl_program const program =
-        clCreateProgramWithSource(static_cast<cl_context>(device.context), 1, &text, &length, &code);
-    if (code == CL_SUCCESS) {
-        code = clBuildProgram(program, 1, &id, "-cl-std=CL1.2", nullptr, nullptr);
-    }
-    if (code != CL_SUCCESS) {
-        std::string const log = program == nullptr ? "" : build_log(program, id);
-        clReleaseProgram(program);
-        throw IoError(fmt::format("{}: the OpenCL device {} does not compile the kernels: {}; leave --device out\n{}",
-                                  stage, device.name, opencl_error_name(code), log));
-    }
-    return program;
-}
-
-/// Compiled once: it takes a driver from milliseconds to seconds.
-cl_program program_of(OpenClDevice const& device, std::string const& stage, std::string_view source) {
-    static std::mutex one_at_a_time;
-    static auto& built = *new std::map<std::pair<void*, std::string>, cl_program>; // never freed, like the devices
-    std::scoped_lock const lock(one_at_a_time);
-    std::pair const key{device.device, std::string(source)};
-    auto at = built.find(key);
-    if (at == built.end()) {
-        at = built.emplace(key, build(device, stage, source)).first;
-    }
-    return at->second;
-}
-
-} // namespace
 
 DeviceQueue::DeviceQueue(char const* stage, std::string_view source)
     : stage_(stage), device_(&opencl_device()), program_(program_of(*device_, stage_, source)) {

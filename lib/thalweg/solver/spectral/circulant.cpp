@@ -23,27 +23,6 @@ double stable(double dx, double dy, double exponent) {
     return portable::exp(-portable::pow(dx * dx + dy * dy, exponent));
 }
 
-} // namespace
-
-double StableCovariance::operator()(double dx_cells, double dy_cells) const {
-    double const coarse = stable(dx_cells / lx_cells, dy_cells / ly_cells, 3.0 - dimension);
-    if (fine_share == 0.0) {
-        return coarse;
-    }
-    return (1.0 - fine_share) * coarse +
-           fine_share * stable(dx_cells / fine_cells, dy_cells / fine_cells, 3.0 - dimension);
-}
-
-void check(StableCovariance const& covariance, char const* stage) {
-    for (double const length : {covariance.lx_cells, covariance.ly_cells, covariance.fine_cells}) {
-        require_in(stage, "correlation length", length, Range::above(0.0), "cells");
-    }
-    require_in(stage, "fractal dimension", covariance.dimension, Range::inside(2.0, 3.0));
-    require_in(stage, "share of fine forms", covariance.fine_share, {0.0, 1.0, true, false});
-}
-
-namespace {
-
 using Line = std::vector<Complex>;
 using Lines = std::vector<Complex, LargePages<Complex>>;
 
@@ -271,87 +250,6 @@ void transform_rows_back(Circulant const& torus, Lines const& lines, Raster<doub
     });
 }
 
-} // namespace
-
-Circulant circulant(StableCovariance const& covariance, std::int64_t width, std::int64_t height, Run const& run) {
-    return circulant(TorusCovariance(covariance), width, height, run);
-}
-
-Circulant circulant(TorusCovariance const& covariance, std::int64_t width, std::int64_t height, Run const& run) {
-    std::size_t const columns = size(width / 2 + 1);
-    std::int64_t const rows = height / 2 + 1;
-    Circulant torus{width, height, Quarter(columns * size(rows)), 0.0};
-    parallel_ranges(run, rows, 4, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t r = begin; r < end; ++r) {
-            run.check();
-            double* const row = &torus.eigenvalues[size(r) * columns];
-            for (std::size_t c = 0; c < columns; ++c) {
-                row[c] = covariance(static_cast<double>(c), static_cast<double>(r));
-            }
-        }
-    });
-    transform_even(torus.eigenvalues, width, height, run);
-    SignedSums const sums = sum_rows(run, rows, [&](std::int64_t r) {
-        double* const row = &torus.eigenvalues[size(r) * columns];
-        SignedSums part;
-        for (std::size_t c = 0; c < columns; ++c) {
-            // Coefficients off the axes also stand for their mirror images.
-            double const times = (c == 0 || c + 1 == columns ? 1.0 : 2.0) * (r == 0 || r + 1 == rows ? 1.0 : 2.0);
-            part.all += times * std::max(row[c], 0.0);
-            part.negative -= times * std::min(row[c], 0.0);
-            row[c] = std::max(row[c], 0.0);
-        }
-        return part;
-    });
-    torus.negative_share = sums.negative / sums.all;
-    return torus;
-}
-
-Quarter covariances(Circulant const& torus, Run const& run) {
-    Quarter quarter = torus.eigenvalues;
-    transform_even(quarter, torus.width, torus.height, run);
-    double const scale = 1.0 / (static_cast<double>(torus.width) * static_cast<double>(torus.height));
-    for (double& value : quarter) {
-        value *= scale;
-    }
-    return quarter;
-}
-
-Raster<double> sample(Circulant const& torus, Grid const& grid, std::uint64_t seed, std::uint64_t stage,
-                      Run const& run) {
-    std::size_t const columns = size(torus.width / 2 + 1);
-    Lines const half = sample_columns(torus, size(grid.height), seed, stage, run);
-    Raster<double> field(grid);
-    double const scale = std::sqrt(0.5 / (static_cast<double>(torus.width) * static_cast<double>(torus.height)));
-    LineTransform const along_row(torus.width, Direction::inverse);
-    parallel_ranges(run, (grid.height + 1) / 2, 4, [&](std::int64_t begin, std::int64_t end) {
-        LineTransform transform = along_row;
-        Line in(size(torus.width));
-        Line out(size(torus.width));
-        for (std::int64_t pair = begin; pair < end; ++pair) {
-            run.check();
-            std::int64_t const second = std::min(2 * pair + 1, grid.height - 1);
-            pack_rows(&half[size(2 * pair) * columns], &half[size(second) * columns], columns, in);
-            transform(in.data(), out.data());
-            auto const upper = field.row(2 * pair);
-            auto const lower = field.row(second);
-            for (std::size_t x = 0; x < upper.size(); ++x) {
-                lower[x] = scale * out[x].imag();
-                upper[x] = scale * out[x].real();
-            }
-        }
-    });
-    return field;
-}
-
-void multiply(Circulant const& torus, Raster<double>& first, Raster<double>& second, Run const& run) {
-    Lines lines = transform_rows(torus, first, second, run);
-    multiply_columns(torus, size(first.height()), lines, run);
-    transform_rows_back(torus, lines, first, second, run);
-}
-
-namespace {
-
 /// Stein's covariance at a distance r in diagonals: with reach 1 its slope, with reach 2 also its curvature is
 /// continuous where the branches meet.
 struct SteinCovariance {
@@ -466,6 +364,100 @@ Grid lattice_of(FractionalSurface const& surface) {
 }
 
 } // namespace
+
+double StableCovariance::operator()(double dx_cells, double dy_cells) const {
+    double const coarse = stable(dx_cells / lx_cells, dy_cells / ly_cells, 3.0 - dimension);
+    if (fine_share == 0.0) {
+        return coarse;
+    }
+    return (1.0 - fine_share) * coarse +
+           fine_share * stable(dx_cells / fine_cells, dy_cells / fine_cells, 3.0 - dimension);
+}
+
+void check(StableCovariance const& covariance, char const* stage) {
+    for (double const length : {covariance.lx_cells, covariance.ly_cells, covariance.fine_cells}) {
+        require_in(stage, "correlation length", length, Range::above(0.0), "cells");
+    }
+    require_in(stage, "fractal dimension", covariance.dimension, Range::inside(2.0, 3.0));
+    require_in(stage, "share of fine forms", covariance.fine_share, {0.0, 1.0, true, false});
+}
+
+Circulant circulant(StableCovariance const& covariance, std::int64_t width, std::int64_t height, Run const& run) {
+    return circulant(TorusCovariance(covariance), width, height, run);
+}
+
+Circulant circulant(TorusCovariance const& covariance, std::int64_t width, std::int64_t height, Run const& run) {
+    std::size_t const columns = size(width / 2 + 1);
+    std::int64_t const rows = height / 2 + 1;
+    Circulant torus{width, height, Quarter(columns * size(rows)), 0.0};
+    parallel_ranges(run, rows, 4, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t r = begin; r < end; ++r) {
+            run.check();
+            double* const row = &torus.eigenvalues[size(r) * columns];
+            for (std::size_t c = 0; c < columns; ++c) {
+                row[c] = covariance(static_cast<double>(c), static_cast<double>(r));
+            }
+        }
+    });
+    transform_even(torus.eigenvalues, width, height, run);
+    SignedSums const sums = sum_rows(run, rows, [&](std::int64_t r) {
+        double* const row = &torus.eigenvalues[size(r) * columns];
+        SignedSums part;
+        for (std::size_t c = 0; c < columns; ++c) {
+            // Coefficients off the axes also stand for their mirror images.
+            double const times = (c == 0 || c + 1 == columns ? 1.0 : 2.0) * (r == 0 || r + 1 == rows ? 1.0 : 2.0);
+            part.all += times * std::max(row[c], 0.0);
+            part.negative -= times * std::min(row[c], 0.0);
+            row[c] = std::max(row[c], 0.0);
+        }
+        return part;
+    });
+    torus.negative_share = sums.negative / sums.all;
+    return torus;
+}
+
+Quarter covariances(Circulant const& torus, Run const& run) {
+    Quarter quarter = torus.eigenvalues;
+    transform_even(quarter, torus.width, torus.height, run);
+    double const scale = 1.0 / (static_cast<double>(torus.width) * static_cast<double>(torus.height));
+    for (double& value : quarter) {
+        value *= scale;
+    }
+    return quarter;
+}
+
+Raster<double> sample(Circulant const& torus, Grid const& grid, std::uint64_t seed, std::uint64_t stage,
+                      Run const& run) {
+    std::size_t const columns = size(torus.width / 2 + 1);
+    Lines const half = sample_columns(torus, size(grid.height), seed, stage, run);
+    Raster<double> field(grid);
+    double const scale = std::sqrt(0.5 / (static_cast<double>(torus.width) * static_cast<double>(torus.height)));
+    LineTransform const along_row(torus.width, Direction::inverse);
+    parallel_ranges(run, (grid.height + 1) / 2, 4, [&](std::int64_t begin, std::int64_t end) {
+        LineTransform transform = along_row;
+        Line in(size(torus.width));
+        Line out(size(torus.width));
+        for (std::int64_t pair = begin; pair < end; ++pair) {
+            run.check();
+            std::int64_t const second = std::min(2 * pair + 1, grid.height - 1);
+            pack_rows(&half[size(2 * pair) * columns], &half[size(second) * columns], columns, in);
+            transform(in.data(), out.data());
+            auto const upper = field.row(2 * pair);
+            auto const lower = field.row(second);
+            for (std::size_t x = 0; x < upper.size(); ++x) {
+                lower[x] = scale * out[x].imag();
+                upper[x] = scale * out[x].real();
+            }
+        }
+    });
+    return field;
+}
+
+void multiply(Circulant const& torus, Raster<double>& first, Raster<double>& second, Run const& run) {
+    Lines lines = transform_rows(torus, first, second, run);
+    multiply_columns(torus, size(first.height()), lines, run);
+    transform_rows_back(torus, lines, first, second, run);
+}
 
 void check_fractional_surface(std::int64_t width, std::int64_t height, double hurst) {
     torus_around(width, height, hurst);

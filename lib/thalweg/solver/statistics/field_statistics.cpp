@@ -54,70 +54,6 @@ std::vector<double> weights(std::vector<Difference> const& differences) {
     return x;
 }
 
-} // namespace
-
-std::vector<Difference> differences(Raster<float> const& dem, std::span<std::int64_t const> lags, Run const& run) {
-    std::vector<Difference> result;
-    for (std::int64_t const lag : lags) {
-        PairSums const sums = sum_rows(run, dem.height(), [&](std::int64_t r) {
-            run.check();
-            PairSums part;
-            auto const row = dem.row(r);
-            auto const apart = static_cast<std::size_t>(lag);
-            for (std::size_t c = apart; c < row.size(); ++c) {
-                add(row[c - apart], row[c], part.squares_along_row, part.pairs_along_row);
-            }
-            if (r >= lag) {
-                auto const north = dem.row(r - lag);
-                for (std::size_t c = 0; c < row.size(); ++c) {
-                    add(north[c], row[c], part.squares_along_column, part.pairs_along_column);
-                }
-            }
-            return part;
-        });
-        Difference d{lag, 0.0, static_cast<double>(sums.pairs_along_row), static_cast<double>(sums.pairs_along_column)};
-        double axes = 0.0;
-        if (sums.pairs_along_row > 0) {
-            d.square += sums.squares_along_row / d.pairs_along_row;
-            axes += 1.0;
-        }
-        if (sums.pairs_along_column > 0) {
-            d.square += sums.squares_along_column / d.pairs_along_column;
-            axes += 1.0;
-        }
-        if (axes > 0.0) {
-            d.square /= axes;
-            result.push_back(d);
-        }
-    }
-    return result;
-}
-
-double fractal_dimension(std::vector<Difference> const& differences) {
-    if (differences.size() < 2) {
-        return std::numeric_limits<double>::quiet_NaN();
-    }
-    std::vector<double> const weight = weights(differences);
-    double h = 0.0;
-    for (std::size_t i = 0; i < weight.size(); ++i) {
-        if (!(differences[i].square > 0.0)) {
-            return std::numeric_limits<double>::quiet_NaN();
-        }
-        h += weight[i] * 0.5 * portable::log(differences[i].square);
-    }
-    return 3.0 - h;
-}
-
-std::vector<double> fractal_dimension_slopes(std::vector<Difference> const& differences) {
-    std::vector<double> slopes = weights(differences);
-    for (std::size_t i = 0; i < slopes.size(); ++i) {
-        slopes[i] *= -0.5 / differences[i].square;
-    }
-    return slopes;
-}
-
-namespace {
-
 constexpr float hole = std::numeric_limits<float>::quiet_NaN();
 
 float height_at(Raster<float> const& dem, std::int64_t col, std::int64_t row) {
@@ -273,7 +209,85 @@ Raster<double> length_derivative(Raster<float> const& dem, FieldStatistics const
     return result;
 }
 
+constexpr double longest_fine_cells = 12.0;
+constexpr double most_fine_share = 0.5;
+
+/// Adds a share of fine forms and lengthens the coarse ones, so that the sum is 1/e at the same distances.
+StableCovariance shared(StableCovariance const& plain, double fine_share) {
+    StableCovariance mixed = plain;
+    double const length = std::sqrt(plain.lx_cells * plain.ly_cells);
+    double const exponent = 3.0 - plain.dimension;
+    mixed.fine_share = fine_share;
+    mixed.fine_cells = std::min(longest_fine_cells, length / 4.0);
+    double const fine = fine_share * portable::exp(-portable::pow(length / mixed.fine_cells, 2.0 * exponent));
+    double const coarse = (portable::exp(-1.0) - fine) / (1.0 - fine_share);
+    double const longer = portable::pow(-portable::log(coarse), -0.5 / exponent);
+    mixed.lx_cells *= longer;
+    mixed.ly_cells *= longer;
+    return mixed;
+}
+
 } // namespace
+
+std::vector<Difference> differences(Raster<float> const& dem, std::span<std::int64_t const> lags, Run const& run) {
+    std::vector<Difference> result;
+    for (std::int64_t const lag : lags) {
+        PairSums const sums = sum_rows(run, dem.height(), [&](std::int64_t r) {
+            run.check();
+            PairSums part;
+            auto const row = dem.row(r);
+            auto const apart = static_cast<std::size_t>(lag);
+            for (std::size_t c = apart; c < row.size(); ++c) {
+                add(row[c - apart], row[c], part.squares_along_row, part.pairs_along_row);
+            }
+            if (r >= lag) {
+                auto const north = dem.row(r - lag);
+                for (std::size_t c = 0; c < row.size(); ++c) {
+                    add(north[c], row[c], part.squares_along_column, part.pairs_along_column);
+                }
+            }
+            return part;
+        });
+        Difference d{lag, 0.0, static_cast<double>(sums.pairs_along_row), static_cast<double>(sums.pairs_along_column)};
+        double axes = 0.0;
+        if (sums.pairs_along_row > 0) {
+            d.square += sums.squares_along_row / d.pairs_along_row;
+            axes += 1.0;
+        }
+        if (sums.pairs_along_column > 0) {
+            d.square += sums.squares_along_column / d.pairs_along_column;
+            axes += 1.0;
+        }
+        if (axes > 0.0) {
+            d.square /= axes;
+            result.push_back(d);
+        }
+    }
+    return result;
+}
+
+double fractal_dimension(std::vector<Difference> const& differences) {
+    if (differences.size() < 2) {
+        return std::numeric_limits<double>::quiet_NaN();
+    }
+    std::vector<double> const weight = weights(differences);
+    double h = 0.0;
+    for (std::size_t i = 0; i < weight.size(); ++i) {
+        if (!(differences[i].square > 0.0)) {
+            return std::numeric_limits<double>::quiet_NaN();
+        }
+        h += weight[i] * 0.5 * portable::log(differences[i].square);
+    }
+    return 3.0 - h;
+}
+
+std::vector<double> fractal_dimension_slopes(std::vector<Difference> const& differences) {
+    std::vector<double> slopes = weights(differences);
+    for (std::size_t i = 0; i < slopes.size(); ++i) {
+        slopes[i] *= -0.5 / differences[i].square;
+    }
+    return slopes;
+}
 
 FieldStatistics field_statistics(Raster<float> const& dem, Run const& run) {
     FieldStatistics is;
@@ -319,28 +333,6 @@ Raster<double> derivative(Raster<float> const& dem, FieldStatistics const& is, Q
     });
     return result;
 }
-
-namespace {
-
-constexpr double longest_fine_cells = 12.0;
-constexpr double most_fine_share = 0.5;
-
-/// Adds a share of fine forms and lengthens the coarse ones, so that the sum is 1/e at the same distances.
-StableCovariance shared(StableCovariance const& plain, double fine_share) {
-    StableCovariance mixed = plain;
-    double const length = std::sqrt(plain.lx_cells * plain.ly_cells);
-    double const exponent = 3.0 - plain.dimension;
-    mixed.fine_share = fine_share;
-    mixed.fine_cells = std::min(longest_fine_cells, length / 4.0);
-    double const fine = fine_share * portable::exp(-portable::pow(length / mixed.fine_cells, 2.0 * exponent));
-    double const coarse = (portable::exp(-1.0) - fine) / (1.0 - fine_share);
-    double const longer = portable::pow(-portable::log(coarse), -0.5 / exponent);
-    mixed.lx_cells *= longer;
-    mixed.ly_cells *= longer;
-    return mixed;
-}
-
-} // namespace
 
 double expected_slope(StableCovariance const& covariance, double std) {
     constexpr int angles = 32;

@@ -189,44 +189,6 @@ void weigh_many(LinesOfDem const& lines, std::vector<double> const& weights, Ras
     });
 }
 
-} // namespace
-
-LagSums lag_sums(Raster<float> const& dem, double datum, Axis axis, std::int64_t lags, Run const& run) {
-    LinesOfDem const lines{dem, datum, axis};
-    LagSums sums;
-    sums.products =
-        lagged(lines, lags, run, [&](std::int64_t first, PairLines& pairs) { lines.heights(first, pairs); });
-    auto const values = dem.values();
-    bool const holes = std::any_of(values.begin(), values.end(), [](float z) { return std::isnan(z); });
-    if (holes) {
-        sums.pairs =
-            lagged(lines, lags, run, [&](std::int64_t first, PairLines& pairs) { lines.presence(first, pairs); });
-        for (double& count : sums.pairs) {
-            count = std::floor(count + 0.5);
-        }
-    } else {
-        for (std::int64_t k = 0; k <= lags; ++k) {
-            sums.pairs.push_back(static_cast<double>((lines.length() - k) * lines.count()));
-        }
-    }
-    return sums;
-}
-
-Raster<double> weigh_lags(Raster<float> const& dem, double datum, Axis axis, std::vector<double> const& weights,
-                          Run const& run) {
-    LinesOfDem const lines{dem, datum, axis};
-    Raster<double> sums(dem.grid());
-    auto const zeros = static_cast<std::size_t>(std::count(weights.begin(), weights.end(), 0.0));
-    if (weights.size() - zeros <= few_weights) {
-        weigh_few(lines, weights, sums, run);
-    } else {
-        weigh_many(lines, weights, sums, run);
-    }
-    return sums;
-}
-
-namespace {
-
 double one_over_e() {
     return portable::exp(-1.0);
 }
@@ -276,6 +238,40 @@ struct Fit {
 };
 
 } // namespace
+
+LagSums lag_sums(Raster<float> const& dem, double datum, Axis axis, std::int64_t lags, Run const& run) {
+    LinesOfDem const lines{dem, datum, axis};
+    LagSums sums;
+    sums.products =
+        lagged(lines, lags, run, [&](std::int64_t first, PairLines& pairs) { lines.heights(first, pairs); });
+    auto const values = dem.values();
+    bool const holes = std::any_of(values.begin(), values.end(), [](float z) { return std::isnan(z); });
+    if (holes) {
+        sums.pairs =
+            lagged(lines, lags, run, [&](std::int64_t first, PairLines& pairs) { lines.presence(first, pairs); });
+        for (double& count : sums.pairs) {
+            count = std::floor(count + 0.5);
+        }
+    } else {
+        for (std::int64_t k = 0; k <= lags; ++k) {
+            sums.pairs.push_back(static_cast<double>((lines.length() - k) * lines.count()));
+        }
+    }
+    return sums;
+}
+
+Raster<double> weigh_lags(Raster<float> const& dem, double datum, Axis axis, std::vector<double> const& weights,
+                          Run const& run) {
+    LinesOfDem const lines{dem, datum, axis};
+    Raster<double> sums(dem.grid());
+    auto const zeros = static_cast<std::size_t>(std::count(weights.begin(), weights.end(), 0.0));
+    if (weights.size() - zeros <= few_weights) {
+        weigh_few(lines, weights, sums, run);
+    } else {
+        weigh_many(lines, weights, sums, run);
+    }
+    return sums;
+}
 
 Correlogram correlogram(Raster<float> const& dem, double mean, double std, Axis axis, Run const& run) {
     Correlogram result;

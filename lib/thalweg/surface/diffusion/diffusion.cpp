@@ -30,44 +30,6 @@ CellKind kind_of(float z, bool inside) {
     return std::isnan(z) ? CellKind::free : CellKind::fixed;
 }
 
-} // namespace
-
-solver::GridProblem problem_through(Raster<float> const& z, Mask const& inside, char const* stage, Run const& run) {
-    Grid const& grid = z.grid();
-    if (inside.cells() > 0) {
-        require_same_grid(inside.grid(), grid, std::string(stage) + ": the mask and the heights",
-                          "make both on one grid");
-    }
-    run.check();
-    solver::GridProblem problem{Raster<std::uint8_t>(grid), Raster<double>(grid), {}};
-    bool any = false;
-    for (std::int64_t i = 0; i < grid.cells(); ++i) {
-        CellKind const kind = kind_of(z[i], inside.cells() == 0 || inside[i] != 0);
-        problem.kind[i] = static_cast<std::uint8_t>(kind);
-        if (kind == CellKind::fixed) {
-            if (std::isinf(z[i])) {
-                Cell const c = grid.at(i);
-                throw BadInput(
-                    fmt::format("{}: an infinite height at column {}, row {}; give finite ones", stage, c.col, c.row));
-            }
-            problem.value[i] = static_cast<double>(z[i]);
-            any = true;
-        }
-    }
-    refuse_if<BadInput>(!any,
-                        "{}: no cell of the {} x {} (inside the mask, where there is one) has a height; a surface "
-                        "needs one to pass through",
-                        stage, grid.width, grid.height);
-    for (solver::CellSpan const& span : solver::unreached(problem.kind, run)) {
-        for (std::int64_t col = span.begin; col < span.end; ++col) {
-            problem.kind[{col, span.row}] = solver::outside_cell;
-        }
-    }
-    return problem;
-}
-
-namespace {
-
 // Converts a problem's values to heights [m]: fixed cells take the bits of z, free ones are rounded once, cells outside
 // are NaN. kind: solver::CellKind by cell; all three have one frame.
 Raster<float> heights_of(Raster<double> const& value, Raster<std::uint8_t> const& kind, Raster<float> const& z) {
@@ -104,49 +66,6 @@ template <class Add> void around_on_line(std::int64_t at, std::int64_t count, st
         add(static_cast<std::size_t>(std::abs(other - at)), other);
     }
 }
-
-} // namespace
-
-void smooth_free(Raster<std::uint8_t> const& kind, double sigma_cells, Raster<double>& value, Run const& run) {
-    auto const weights = weights_of(sigma_cells);
-    auto const radius = static_cast<std::int64_t>(weights.size()) - 1;
-    std::int64_t const width = kind.width();
-    std::int64_t const height = kind.height();
-    Sums along{Raster<double>(kind.grid()), Raster<double>(kind.grid())};
-    parallel_ranges(run, height, 16, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t row = begin; row < end; ++row) {
-            for (std::int64_t col = 0; col < width; ++col) {
-                double sum = 0.0;
-                double weight = 0.0;
-                around_on_line(col, width, radius, [&](std::size_t distance, std::int64_t other) {
-                    if (kind[{other, row}] != solver::outside_cell) {
-                        sum += weights[distance] * value[{other, row}];
-                        weight += weights[distance];
-                    }
-                });
-                along.value[{col, row}] = sum;
-                along.weight[{col, row}] = weight;
-            }
-        }
-    });
-    parallel_ranges(run, height, 16, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t row = begin; row < end; ++row) {
-            for (std::int64_t col = 0; col < width; ++col) {
-                if (kind[{col, row}] == solver::free_cell) {
-                    double sum = 0.0;
-                    double weight = 0.0;
-                    around_on_line(row, height, radius, [&](std::size_t distance, std::int64_t other) {
-                        sum += weights[distance] * along.value[{col, other}];
-                        weight += weights[distance] * along.weight[{col, other}];
-                    });
-                    value[{col, row}] = sum / weight;
-                }
-            }
-        }
-    });
-}
-
-namespace {
 
 constexpr std::int64_t side = 8;
 
@@ -246,6 +165,79 @@ void add_noise(Raster<std::uint8_t> const& kind, Raster<float> const& z, Diffuse
 }
 
 } // namespace
+
+solver::GridProblem problem_through(Raster<float> const& z, Mask const& inside, char const* stage, Run const& run) {
+    Grid const& grid = z.grid();
+    if (inside.cells() > 0) {
+        require_same_grid(inside.grid(), grid, std::string(stage) + ": the mask and the heights",
+                          "make both on one grid");
+    }
+    run.check();
+    solver::GridProblem problem{Raster<std::uint8_t>(grid), Raster<double>(grid), {}};
+    bool any = false;
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        CellKind const kind = kind_of(z[i], inside.cells() == 0 || inside[i] != 0);
+        problem.kind[i] = static_cast<std::uint8_t>(kind);
+        if (kind == CellKind::fixed) {
+            if (std::isinf(z[i])) {
+                Cell const c = grid.at(i);
+                throw BadInput(
+                    fmt::format("{}: an infinite height at column {}, row {}; give finite ones", stage, c.col, c.row));
+            }
+            problem.value[i] = static_cast<double>(z[i]);
+            any = true;
+        }
+    }
+    refuse_if<BadInput>(!any,
+                        "{}: no cell of the {} x {} (inside the mask, where there is one) has a height; a surface "
+                        "needs one to pass through",
+                        stage, grid.width, grid.height);
+    for (solver::CellSpan const& span : solver::unreached(problem.kind, run)) {
+        for (std::int64_t col = span.begin; col < span.end; ++col) {
+            problem.kind[{col, span.row}] = solver::outside_cell;
+        }
+    }
+    return problem;
+}
+
+void smooth_free(Raster<std::uint8_t> const& kind, double sigma_cells, Raster<double>& value, Run const& run) {
+    auto const weights = weights_of(sigma_cells);
+    auto const radius = static_cast<std::int64_t>(weights.size()) - 1;
+    std::int64_t const width = kind.width();
+    std::int64_t const height = kind.height();
+    Sums along{Raster<double>(kind.grid()), Raster<double>(kind.grid())};
+    parallel_ranges(run, height, 16, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t row = begin; row < end; ++row) {
+            for (std::int64_t col = 0; col < width; ++col) {
+                double sum = 0.0;
+                double weight = 0.0;
+                around_on_line(col, width, radius, [&](std::size_t distance, std::int64_t other) {
+                    if (kind[{other, row}] != solver::outside_cell) {
+                        sum += weights[distance] * value[{other, row}];
+                        weight += weights[distance];
+                    }
+                });
+                along.value[{col, row}] = sum;
+                along.weight[{col, row}] = weight;
+            }
+        }
+    });
+    parallel_ranges(run, height, 16, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t row = begin; row < end; ++row) {
+            for (std::int64_t col = 0; col < width; ++col) {
+                if (kind[{col, row}] == solver::free_cell) {
+                    double sum = 0.0;
+                    double weight = 0.0;
+                    around_on_line(row, height, radius, [&](std::size_t distance, std::int64_t other) {
+                        sum += weights[distance] * along.value[{col, other}];
+                        weight += weights[distance] * along.weight[{col, other}];
+                    });
+                    value[{col, row}] = sum / weight;
+                }
+            }
+        }
+    });
+}
 
 Diffused diffuse(Skeleton const& skeleton, DiffuseParams const& params, Run const& run) {
     return diffuse(skeleton, Mask(), params, run);

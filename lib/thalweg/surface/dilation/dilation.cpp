@@ -276,6 +276,26 @@ template <class Level> Expansion expand_as(Valley const& valley, Run const& run)
     return expansion;
 }
 
+/// The same valley at height 0: dilating it gives H(d) alone.
+Valley levelled(Valley const& valley, Raster<float> const& base) {
+    require_same_grid(base.grid(), valley.z.grid(), "surface.dilate_over: the base and the valley",
+                      "lay the base on the valley's grid");
+    Valley level = valley;
+    for (float& z : level.z.values()) {
+        z = std::isnan(z) ? z : 0.0F;
+    }
+    return level;
+}
+
+Dilated on_base(Dilated rise, Valley const& valley, Raster<float> const& base, Run const& run) {
+    for (std::int64_t i = 0; i < base.cells(); ++i) {
+        float const river = valley.z[i];
+        rise.dem[i] = std::isnan(river) || std::isnan(rise.dem[i]) ? base[i] + rise.dem[i] : river;
+    }
+    rise.flat_share = flat_share(valley, rise.dem, run);
+    return rise;
+}
+
 } // namespace
 
 Dilated dilate(Valley const& valley, DilateParams const& params, Run const& run) {
@@ -357,30 +377,6 @@ Expansion expand(Valley const& valley, Run const& run) {
     return separable::fits16(valley.z.grid()) ? expand_as<std::uint16_t>(valley, run)
                                               : expand_as<std::int32_t>(valley, run);
 }
-
-namespace {
-
-/// The same valley at height 0: dilating it gives H(d) alone.
-Valley levelled(Valley const& valley, Raster<float> const& base) {
-    require_same_grid(base.grid(), valley.z.grid(), "surface.dilate_over: the base and the valley",
-                      "lay the base on the valley's grid");
-    Valley level = valley;
-    for (float& z : level.z.values()) {
-        z = std::isnan(z) ? z : 0.0F;
-    }
-    return level;
-}
-
-Dilated on_base(Dilated rise, Valley const& valley, Raster<float> const& base, Run const& run) {
-    for (std::int64_t i = 0; i < base.cells(); ++i) {
-        float const river = valley.z[i];
-        rise.dem[i] = std::isnan(river) || std::isnan(rise.dem[i]) ? base[i] + rise.dem[i] : river;
-    }
-    rise.flat_share = flat_share(valley, rise.dem, run);
-    return rise;
-}
-
-} // namespace
 
 Dilated dilate_over(Valley const& valley, Raster<float> const& base, DilateParams const& params, Run const& run) {
     return on_base(dilate(levelled(valley, base), params, run), valley, base, run);

@@ -164,29 +164,6 @@ void check_levels(Channels const& rivers) {
     }
 }
 
-} // namespace
-
-double share_done(std::size_t number, int round, int rounds) {
-    double below = 1.0;
-    for (std::size_t k = 0; k < number; ++k) {
-        below *= 0.25;
-    }
-    return below * (0.25 + 0.75 * static_cast<double>(round) / static_cast<double>(rounds));
-}
-
-void check_rivers(Channels const& rivers, EquilibriumFields const& fields) {
-    check_grid(rivers.grid);
-    check_order(rivers);
-    check_land(rivers, fields.land);
-    check_field(rivers.grid, fields.uplift, fields.land, "uplift");
-    check_field(rivers.grid, fields.erodibility, fields.land, "erodibility");
-    check_features(rivers.grid, fields.features, "surface.equilibrium");
-    check_channel_heights(rivers);
-    check_levels(rivers);
-}
-
-namespace {
-
 constexpr int fine_rounds = 6;
 constexpr int coarse_rounds = 30;
 constexpr int more_for_heights = 6;
@@ -454,14 +431,6 @@ bool asks_heights(Channels const& rivers, EquilibriumParams const& params) {
            std::any_of(rivers.z.begin(), rivers.z.end(), [](float z) { return !std::isnan(z); });
 }
 
-} // namespace
-
-bool has_levels(Channels const& rivers) {
-    return std::any_of(rivers.lake_z.begin(), rivers.lake_z.end(), [](float z) { return !std::isnan(z); });
-}
-
-namespace {
-
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
 
 /// The levels of lakes that their water can keep: as wanted, or the least from which it falls to the next such lake and
@@ -496,34 +465,6 @@ double least_metres(Channels const& rivers, double base_m) {
     }
     return metres;
 }
-
-} // namespace
-
-Channels with_levels(Channels rivers) {
-    rivers.lake_z = kept_levels(rivers, rivers.z);
-    std::vector<float> most(rivers.z.size(), std::numeric_limits<float>::infinity());
-    for (std::size_t n = most.size(); n-- > 0;) {
-        most[n] = std::isnan(rivers.lake_z[n]) ? most[n] : rivers.lake_z[n];
-        if (std::int64_t const r = rivers.receiver[n]; r >= 0) {
-            most[r] = std::min(most[r], is_level(rivers, n) ? most[n] : least_below(most[n]));
-        }
-    }
-    std::vector<float> least(most.size(), -std::numeric_limits<float>::infinity());
-    for (std::size_t n = 0; n < most.size(); ++n) {
-        std::int64_t const r = rivers.receiver[n];
-        float& z = rivers.z[n];
-        if (!std::isnan(rivers.lake_z[n])) {
-            z = rivers.lake_z[n];
-            least[n] = z;
-        } else if (r >= 0) {
-            least[n] = least[r];
-            z = is_level(rivers, n) ? rivers.z[r] : std::isnan(z) ? z : std::max(std::min(z, most[n]), least[n]);
-        }
-    }
-    return rivers;
-}
-
-namespace {
 
 /// Height of the solver's 0 if heights are prescribed: the sea, otherwise the lowest of them.
 float base_of(Channels const& rivers, Edge edge) {
@@ -750,6 +691,53 @@ EquilibriumTerrain through_features(Channels const& rivers, EquilibriumFields co
 }
 
 } // namespace
+
+double share_done(std::size_t number, int round, int rounds) {
+    double below = 1.0;
+    for (std::size_t k = 0; k < number; ++k) {
+        below *= 0.25;
+    }
+    return below * (0.25 + 0.75 * static_cast<double>(round) / static_cast<double>(rounds));
+}
+
+void check_rivers(Channels const& rivers, EquilibriumFields const& fields) {
+    check_grid(rivers.grid);
+    check_order(rivers);
+    check_land(rivers, fields.land);
+    check_field(rivers.grid, fields.uplift, fields.land, "uplift");
+    check_field(rivers.grid, fields.erodibility, fields.land, "erodibility");
+    check_features(rivers.grid, fields.features, "surface.equilibrium");
+    check_channel_heights(rivers);
+    check_levels(rivers);
+}
+
+bool has_levels(Channels const& rivers) {
+    return std::any_of(rivers.lake_z.begin(), rivers.lake_z.end(), [](float z) { return !std::isnan(z); });
+}
+
+Channels with_levels(Channels rivers) {
+    rivers.lake_z = kept_levels(rivers, rivers.z);
+    std::vector<float> most(rivers.z.size(), std::numeric_limits<float>::infinity());
+    for (std::size_t n = most.size(); n-- > 0;) {
+        most[n] = std::isnan(rivers.lake_z[n]) ? most[n] : rivers.lake_z[n];
+        if (std::int64_t const r = rivers.receiver[n]; r >= 0) {
+            most[r] = std::min(most[r], is_level(rivers, n) ? most[n] : least_below(most[n]));
+        }
+    }
+    std::vector<float> least(most.size(), -std::numeric_limits<float>::infinity());
+    for (std::size_t n = 0; n < most.size(); ++n) {
+        std::int64_t const r = rivers.receiver[n];
+        float& z = rivers.z[n];
+        if (!std::isnan(rivers.lake_z[n])) {
+            z = rivers.lake_z[n];
+            least[n] = z;
+        } else if (r >= 0) {
+            least[n] = least[r];
+            z = is_level(rivers, n) ? rivers.z[r] : std::isnan(z) ? z : std::max(std::min(z, most[n]), least[n]);
+        }
+    }
+    return rivers;
+}
 
 EquilibriumTerrain equilibrium(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
                                Run const& run) {

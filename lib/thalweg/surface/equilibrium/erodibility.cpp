@@ -157,38 +157,6 @@ Cells<float> level_of(Raster<float> const& field, TerrainLevel const& level) {
     return out;
 }
 
-} // namespace
-
-void set_erodibility(TerrainLevel& level, ErodibilityFields const& fields, ErodibilityParams const& params,
-                     Run const& run) {
-    level.erodibility = erodibility_noise(level, params.noise, run);
-    level.cap.resize(level.erodibility.size());
-    for (std::uint32_t const river : level.rivers.cell) {
-        level.erodibility[river] = 0.0F;
-    }
-    Cells<float> rock;
-    if (fields.erodibility.cells() > 0) {
-        rock = level_of(fields.erodibility, level);
-        std::transform(rock.begin(), rock.end(), rock.begin(),
-                       [](float of) { return static_cast<float>(portable::pow(static_cast<double>(of), 0.2)); });
-    }
-    if (fields.uplift.cells() > 0) {
-        level.uplift = level_of(fields.uplift, level);
-    }
-    auto* const turn = widest_lanes() == Lanes::avx2 ? &avx2::erodibility_row : &plain::erodibility_row;
-    std::vector<float> const even(rock.empty() ? static_cast<std::size_t>(level.width) : 0, 1.0F);
-    auto const roughness = static_cast<float>(params.roughness);
-    parallel_ranges(run, level.height, least_rows(level.width), [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t row = begin; row < end; ++row) {
-            auto const first = static_cast<std::size_t>(row * level.width);
-            turn(&level.erodibility[first], &level.cap[first], rock.empty() ? even.data() : &rock[first], roughness,
-                 level.width);
-        }
-    });
-}
-
-namespace {
-
 constexpr float tolerated = 0.2F; // [cells of the level] tolerated deficit of the terrain beside a river
 constexpr float rate = 0.5F;      // largest change per call
 constexpr float firmest = 2.0F;   // [log]
@@ -293,6 +261,34 @@ void add_firmness(TerrainLevel& level, std::size_t i, float more) {
 }
 
 } // namespace
+
+void set_erodibility(TerrainLevel& level, ErodibilityFields const& fields, ErodibilityParams const& params,
+                     Run const& run) {
+    level.erodibility = erodibility_noise(level, params.noise, run);
+    level.cap.resize(level.erodibility.size());
+    for (std::uint32_t const river : level.rivers.cell) {
+        level.erodibility[river] = 0.0F;
+    }
+    Cells<float> rock;
+    if (fields.erodibility.cells() > 0) {
+        rock = level_of(fields.erodibility, level);
+        std::transform(rock.begin(), rock.end(), rock.begin(),
+                       [](float of) { return static_cast<float>(portable::pow(static_cast<double>(of), 0.2)); });
+    }
+    if (fields.uplift.cells() > 0) {
+        level.uplift = level_of(fields.uplift, level);
+    }
+    auto* const turn = widest_lanes() == Lanes::avx2 ? &avx2::erodibility_row : &plain::erodibility_row;
+    std::vector<float> const even(rock.empty() ? static_cast<std::size_t>(level.width) : 0, 1.0F);
+    auto const roughness = static_cast<float>(params.roughness);
+    parallel_ranges(run, level.height, least_rows(level.width), [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t row = begin; row < end; ++row) {
+            auto const first = static_cast<std::size_t>(row * level.width);
+            turn(&level.erodibility[first], &level.cap[first], rock.empty() ? even.data() : &rock[first], roughness,
+                 level.width);
+        }
+    });
+}
 
 void reduce_erodibility(TerrainLevel& level, EquilibriumLaw const& law) {
     RiverCells const& rivers = level.rivers;

@@ -186,18 +186,6 @@ Rise height_scale_of(Raster<float> const& land, EquilibriumParams const& params,
     return {factor, portable::sin(slope) / portable::cos(slope)};
 }
 
-} // namespace
-
-double share_of_target(Raster<float> const& land, double factor, EquilibriumParams const& params, Run const& run) {
-    if (params.relief_m) {
-        return range_of(land) * factor / *params.relief_m;
-    }
-    Slopes const slopes = slopes_of(land, run);
-    return slopes.empty() ? 0.0 : slopes.mean(factor) / params.mean_slope_deg;
-}
-
-namespace {
-
 // Enforces the law in the floats that will be written: raises heights by the least that puts every cell a step above
 // its receiver and banks above the rivers beside them; lakes have the height of their receivers. Prescribed heights of
 // rivers are raised by one ulp where necessary.
@@ -378,7 +366,27 @@ void report_lowered(Raster<float> const& dem, Channels const& rivers, Equilibriu
     out.p95_lowered_m = lowered[(lowered.size() - 1) * 95 / 100];
 }
 
+/// Gives river cells their prescribed heights: at most, or exactly.
+void set_asked(TerrainLevel& level, Channels const& rivers, bool at_most) {
+    for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
+        std::int64_t const number = level.rivers.number[n];
+        float const asked = number < 0 ? std::nanf("") : rivers.z[number];
+        if (!std::isnan(asked)) {
+            float& z = level.z[level.rivers.cell[n]];
+            z = at_most ? std::min(z, asked) : asked;
+        }
+    }
+}
+
 } // namespace
+
+double share_of_target(Raster<float> const& land, double factor, EquilibriumParams const& params, Run const& run) {
+    if (params.relief_m) {
+        return range_of(land) * factor / *params.relief_m;
+    }
+    Slopes const slopes = slopes_of(land, run);
+    return slopes.empty() ? 0.0 : slopes.mean(factor) / params.mean_slope_deg;
+}
 
 HeightConversion height_conversion_for(TerrainLevel const& level, Channels const& rivers, Window const& window,
                                        EquilibriumParams const& params, Run const& run) {
@@ -476,22 +484,6 @@ EquilibriumTerrain extract_terrain(TerrainLevel level, Channels const& rivers, W
     out.direction = directions(out.dem, rivers, out.shortened, run);
     return out;
 }
-
-namespace {
-
-/// Gives river cells their prescribed heights: at most, or exactly.
-void set_asked(TerrainLevel& level, Channels const& rivers, bool at_most) {
-    for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
-        std::int64_t const number = level.rivers.number[n];
-        float const asked = number < 0 ? std::nanf("") : rivers.z[number];
-        if (!std::isnan(asked)) {
-            float& z = level.z[level.rivers.cell[n]];
-            z = at_most ? std::min(z, asked) : asked;
-        }
-    }
-}
-
-} // namespace
 
 EquilibriumTerrain extract_terrain_with_heights(TerrainLevel level, Channels const& rivers, Window const& window,
                                                 HeightConversion const& raise, RiverHeights heights, Run const& run) {

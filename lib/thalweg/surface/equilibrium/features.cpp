@@ -26,6 +26,32 @@ std::optional<std::uint32_t> land_cell_at(TerrainLevel const& level, Cell fine) 
                : std::nullopt;
 }
 
+/// The highest land beside a crest cell that does not drain through it.
+std::optional<std::size_t> highest_beside(TerrainLevel const& level, std::uint32_t crest,
+                                          std::array<std::int64_t, 8> const& offsets) {
+    std::optional<std::size_t> highest;
+    for (std::int64_t const offset : offsets) {
+        std::size_t const n = moved(crest, offset);
+        if (is_land(level.type[n]) && level.is_crest[n] == 0 && moved(n, offsets[level.direction[n]]) != crest &&
+            (!highest || level.z[n] > level.z[*highest])) {
+            highest = n;
+        }
+    }
+    return highest;
+}
+
+/// The sum of marks that rise and marks that sink, spread beside their paths.
+Cells<float> spread_both(TerrainLevel const& level, Cells<float> rises, Cells<float> sinks, WallParams const& params,
+                         Run const& run) {
+    rises = spread_along(level, std::move(rises), params, run);
+    sinks = spread_along(level, std::move(sinks), params, run);
+    rises.resize(std::max(rises.size(), sinks.size()), 0.0F);
+    for (std::size_t i = 0; i < sinks.size(); ++i) {
+        rises[i] -= sinks[i];
+    }
+    return rises;
+}
+
 } // namespace
 
 void check_features(Grid const& grid, std::vector<FeatureCell> const& features, char const* self) {
@@ -221,36 +247,6 @@ void PullToHeights::follow_rivers(TerrainLevel& level, Pull const& pull) {
         level.uplift[i] += pull.stiffness[i] * rise;
     }
 }
-
-namespace {
-
-/// The highest land beside a crest cell that does not drain through it.
-std::optional<std::size_t> highest_beside(TerrainLevel const& level, std::uint32_t crest,
-                                          std::array<std::int64_t, 8> const& offsets) {
-    std::optional<std::size_t> highest;
-    for (std::int64_t const offset : offsets) {
-        std::size_t const n = moved(crest, offset);
-        if (is_land(level.type[n]) && level.is_crest[n] == 0 && moved(n, offsets[level.direction[n]]) != crest &&
-            (!highest || level.z[n] > level.z[*highest])) {
-            highest = n;
-        }
-    }
-    return highest;
-}
-
-/// The sum of marks that rise and marks that sink, spread beside their paths.
-Cells<float> spread_both(TerrainLevel const& level, Cells<float> rises, Cells<float> sinks, WallParams const& params,
-                         Run const& run) {
-    rises = spread_along(level, std::move(rises), params, run);
-    sinks = spread_along(level, std::move(sinks), params, run);
-    rises.resize(std::max(rises.size(), sinks.size()), 0.0F);
-    for (std::size_t i = 0; i < sinks.size(); ++i) {
-        rises[i] -= sinks[i];
-    }
-    return rises;
-}
-
-} // namespace
 
 void raise_crests(TerrainLevel const& level, Cells<float>& floor) {
     auto const offsets = level.offsets();

@@ -122,6 +122,156 @@ void settle_bank(TerrainLevel& level, std::size_t i, std::array<std::int64_t, 8>
     level.z[i] = std::max(level.z[i], highest + 1.5F * level.least * level.side);
 }
 
+std::int8_t steepest_river(TerrainLevel const& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
+    float best = 0.0F;
+    std::int8_t way = level.direction[i];
+    for (std::size_t k = 0; k < 8; ++k) {
+        std::size_t const n = moved(i, offsets[k]);
+        float const slope = (level.z[i] - level.z[n]) * static_cast<float>(d8_per_length[k]);
+        if (level.type[n] == CellType::river && slope > best) {
+            best = slope;
+            way = static_cast<std::int8_t>(k);
+        }
+    }
+    return way;
+}
+
+/// Follows water from the cells without donors of a band of rows as far as it stays there, tile by tile, so that paths
+/// mostly stay in the processor's cache.
+/// \param awaited by cell: donors whose water has not arrived
+/// \param leaving receives the cells whose water leaves the band
+OrderPart follow_in_band(TerrainLevel& level, std::int64_t top, std::int64_t bottom, Cells<std::uint8_t>& awaited,
+                         std::vector<std::uint32_t>& leaving) {
+    constexpr std::int64_t tile = 64;
+    std::int64_t const width = level.width;
+    auto const first = static_cast<std::size_t>(top * width);
+    auto const cells = static_cast<std::size_t>((bottom - top) * width);
+    auto const offsets = level.offsets();
+    // Bytes may lie anywhere, so that members would be read again after each is written.
+    std::int8_t const* const direction = level.direction.data();
+    std::uint8_t* const waits = awaited.data();
+    std::uint32_t* const area = level.area.data();
+    std::uint32_t* const order = level.order.data() + first;
+    std::size_t listed = 0;
+    std::size_t followed = 0;
+    for (std::int64_t row = top; row < bottom; row += tile) {
+        for (std::int64_t left = 0; left < width; left += tile) {
+            for (std::int64_t r = row; r < std::min(bottom, row + tile); ++r) {
+                std::int64_t const end = r * width + std::min(width, left + tile);
+                for (std::int64_t i = r * width + left; i < end; ++i) {
+                    order[listed] = static_cast<std::uint32_t>(i);
+                    listed += waits[i] == 0 ? 1U : 0U;
+                }
+            }
+            for (; followed < listed; ++followed) {
+                std::uint32_t const i = order[followed];
+                std::size_t const next = moved(i, offsets[direction[i]]);
+                if (next - first >= cells) {
+                    leaving.push_back(i);
+                    continue;
+                }
+                area[next] += area[i];
+                order[listed] = static_cast<std::uint32_t>(next);
+                listed += --waits[next] == all_came ? 1U : 0U;
+            }
+        }
+    }
+    return {first, listed};
+}
+
+/// One band for one worker; a few more than workers otherwise.
+std::int64_t band_count(TerrainLevel const& level, std::int64_t rows, Run const& run) {
+    std::int64_t const workers = run.threads > 0 ? run.threads : std::max(1U, std::thread::hardware_concurrency());
+    return workers == 1 ? 1 : std::clamp<std::int64_t>(level.height / rows, 1, std::int64_t{2} * workers);
+}
+
+struct Creep {
+    float gain;   ///< weighted heights of the neighbours
+    float weight; ///< their weights
+};
+
+Creep creep_at_rim(TerrainLevel const& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
+    Creep creep{0.0F, 0.0F};
+    for (std::size_t k = 0; k < offsets.size(); ++k) {
+        std::size_t const n = moved(i, offsets[k]);
+        if (level.type[n] != CellType::outside) {
+            float const weight = k % 2 == 0 ? by_side : by_corner;
+            creep.gain += weight * level.z[n];
+            creep.weight += weight;
+        }
+    }
+    return creep;
+}
+
+constexpr float tolerance = 1.5F; // relative to the cap
+
+float greatest_height(TerrainLevel const& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
+    float const steepest = tolerance * level.side * level.cap[i];
+    float most = level.z[i];
+    for (std::size_t k = 0; k < offsets.size(); ++k) {
+        most = std::min(most, level.z[moved(i, offsets[k])] + steepest * step_lengths[k]);
+    }
+    return most;
+}
+
+float relaxed(Relaxation const& step, float below, float most, float least) {
+    return std::max(std::min(step.rise + step.share * below, below + most), below + least);
+}
+
+constexpr float settled = -1.0F; // share of a cell whose height is known: its rise
+
+constexpr float least_width = 0.5F; // [cells] narrower floors are not resolved
+constexpr float foot_widths = 2.0F; // end of the foot, in half widths of the floor
+constexpr float most_widening = 2.0F;
+constexpr float floor_share = 0.04F; // cap on the floor, relative to the cap
+
+/// Varies the width of floors: from half in gorges to twice in basins.
+float widening(TerrainLevel const& level, std::size_t i, FloorParams const& params) {
+    double const long_wave = std::max(2.0, 1800.0 / params.cell_m); // [cells]
+    double const short_wave = std::max(2.0, 400.0 / params.cell_m);
+    Cell const cell{static_cast<std::int64_t>(i) % level.width, static_cast<std::int64_t>(i) / level.width};
+    double const noise = value_noise(params.seed, cell, long_wave) + 0.5 * value_noise(params.seed, cell, short_wave);
+    return static_cast<float>(portable::exp(std::clamp(noise, -1.0, 1.0) * 0.69));
+}
+
+/// Widening of river cells' floors near the sea, where mouths are drowned and filled.
+std::vector<float> filled_mouths(TerrainLevel const& level, double cell_m) {
+    constexpr double reach_m = 3000.0;
+    constexpr float at_mouth = 2.1F;
+    RiverCells const& rivers = level.rivers;
+    auto const offsets = level.offsets();
+    std::vector<float> more(rivers.cell.size());
+    auto const kept = static_cast<float>(portable::exp(-cell_m / reach_m));
+    for (std::size_t n = 0; n < more.size(); ++n) {
+        if (rivers.receiver[n] >= 0) {
+            more[n] = kept * more[rivers.receiver[n]];
+        } else if (std::any_of(offsets.begin(), offsets.end(), [&](std::int64_t offset) {
+                       return level.type[moved(rivers.cell[n], offset)] == CellType::sea;
+                   })) {
+            more[n] = at_mouth;
+        }
+    }
+    return more;
+}
+
+/// Width of a floor relative to that where 1 km² drains. Rivers with larger areas run between the flanks of ranges.
+double growth(double area_km2) {
+    constexpr double confined_km2 = 200.0;
+    return portable::pow(std::min(area_km2, confined_km2), 0.42);
+}
+
+/// [cells] half widths of the floors of river cells.
+std::vector<float> half_widths(TerrainLevel const& level, FloorParams const& params) {
+    double const per_cell_km2 = params.cell_m * params.cell_m * 1e-6;
+    double const per_km = 1000.0 / params.cell_m * params.width_km;
+    std::vector<float> widths = filled_mouths(level, params.cell_m);
+    for (std::size_t n = 0; n < widths.size(); ++n) {
+        double const area_km2 = static_cast<double>(level.area[level.rivers.cell[n]]) * per_cell_km2;
+        widths[n] = (1.0F + widths[n]) * static_cast<float>(per_km * growth(area_km2));
+    }
+    return widths;
+}
+
 } // namespace
 
 void flood_terrain(TerrainLevel& level) {
@@ -203,24 +353,6 @@ void flood_terrain(TerrainLevel& level) {
     }
 }
 
-namespace {
-
-std::int8_t steepest_river(TerrainLevel const& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
-    float best = 0.0F;
-    std::int8_t way = level.direction[i];
-    for (std::size_t k = 0; k < 8; ++k) {
-        std::size_t const n = moved(i, offsets[k]);
-        float const slope = (level.z[i] - level.z[n]) * static_cast<float>(d8_per_length[k]);
-        if (level.type[n] == CellType::river && slope > best) {
-            best = slope;
-            way = static_cast<std::int8_t>(k);
-        }
-    }
-    return way;
-}
-
-} // namespace
-
 void set_steepest_receivers(TerrainLevel& level, Run const& run) {
     auto const offsets = level.offsets();
     auto* const steepest = widest_lanes() == Lanes::avx2 ? &avx2::steepest_row : &plain::steepest_row;
@@ -236,59 +368,6 @@ void set_steepest_receivers(TerrainLevel& level, Run const& run) {
     });
     keep_off_crests(level, beside_crests);
 }
-
-namespace {
-
-/// Follows water from the cells without donors of a band of rows as far as it stays there, tile by tile, so that paths
-/// mostly stay in the processor's cache.
-/// \param awaited by cell: donors whose water has not arrived
-/// \param leaving receives the cells whose water leaves the band
-OrderPart follow_in_band(TerrainLevel& level, std::int64_t top, std::int64_t bottom, Cells<std::uint8_t>& awaited,
-                         std::vector<std::uint32_t>& leaving) {
-    constexpr std::int64_t tile = 64;
-    std::int64_t const width = level.width;
-    auto const first = static_cast<std::size_t>(top * width);
-    auto const cells = static_cast<std::size_t>((bottom - top) * width);
-    auto const offsets = level.offsets();
-    // Bytes may lie anywhere, so that members would be read again after each is written.
-    std::int8_t const* const direction = level.direction.data();
-    std::uint8_t* const waits = awaited.data();
-    std::uint32_t* const area = level.area.data();
-    std::uint32_t* const order = level.order.data() + first;
-    std::size_t listed = 0;
-    std::size_t followed = 0;
-    for (std::int64_t row = top; row < bottom; row += tile) {
-        for (std::int64_t left = 0; left < width; left += tile) {
-            for (std::int64_t r = row; r < std::min(bottom, row + tile); ++r) {
-                std::int64_t const end = r * width + std::min(width, left + tile);
-                for (std::int64_t i = r * width + left; i < end; ++i) {
-                    order[listed] = static_cast<std::uint32_t>(i);
-                    listed += waits[i] == 0 ? 1U : 0U;
-                }
-            }
-            for (; followed < listed; ++followed) {
-                std::uint32_t const i = order[followed];
-                std::size_t const next = moved(i, offsets[direction[i]]);
-                if (next - first >= cells) {
-                    leaving.push_back(i);
-                    continue;
-                }
-                area[next] += area[i];
-                order[listed] = static_cast<std::uint32_t>(next);
-                listed += --waits[next] == all_came ? 1U : 0U;
-            }
-        }
-    }
-    return {first, listed};
-}
-
-/// One band for one worker; a few more than workers otherwise.
-std::int64_t band_count(TerrainLevel const& level, std::int64_t rows, Run const& run) {
-    std::int64_t const workers = run.threads > 0 ? run.threads : std::max(1U, std::thread::hardware_concurrency());
-    return workers == 1 ? 1 : std::clamp<std::int64_t>(level.height / rows, 1, std::int64_t{2} * workers);
-}
-
-} // namespace
 
 void accumulate_areas(TerrainLevel& level, Run const& run, std::int64_t rows) {
     auto const offsets = level.offsets();
@@ -328,45 +407,6 @@ void accumulate_areas(TerrainLevel& level, Run const& run, std::int64_t rows) {
         }
     }
 }
-
-namespace {
-
-struct Creep {
-    float gain;   ///< weighted heights of the neighbours
-    float weight; ///< their weights
-};
-
-Creep creep_at_rim(TerrainLevel const& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
-    Creep creep{0.0F, 0.0F};
-    for (std::size_t k = 0; k < offsets.size(); ++k) {
-        std::size_t const n = moved(i, offsets[k]);
-        if (level.type[n] != CellType::outside) {
-            float const weight = k % 2 == 0 ? by_side : by_corner;
-            creep.gain += weight * level.z[n];
-            creep.weight += weight;
-        }
-    }
-    return creep;
-}
-
-constexpr float tolerance = 1.5F; // relative to the cap
-
-float greatest_height(TerrainLevel const& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
-    float const steepest = tolerance * level.side * level.cap[i];
-    float most = level.z[i];
-    for (std::size_t k = 0; k < offsets.size(); ++k) {
-        most = std::min(most, level.z[moved(i, offsets[k])] + steepest * step_lengths[k]);
-    }
-    return most;
-}
-
-float relaxed(Relaxation const& step, float below, float most, float least) {
-    return std::max(std::min(step.rise + step.share * below, below + most), below + least);
-}
-
-constexpr float settled = -1.0F; // share of a cell whose height is known: its rise
-
-} // namespace
 
 void relax_terrain(TerrainLevel& level, LandLaw const& law, Pull const& pull, Cells<Relaxation>& steps,
                    Run const& run) {
@@ -495,62 +535,6 @@ void slide_terrain(TerrainLevel& level, Run const& run) {
         }
     }
 }
-
-namespace {
-
-constexpr float least_width = 0.5F; // [cells] narrower floors are not resolved
-constexpr float foot_widths = 2.0F; // end of the foot, in half widths of the floor
-constexpr float most_widening = 2.0F;
-constexpr float floor_share = 0.04F; // cap on the floor, relative to the cap
-
-/// Varies the width of floors: from half in gorges to twice in basins.
-float widening(TerrainLevel const& level, std::size_t i, FloorParams const& params) {
-    double const long_wave = std::max(2.0, 1800.0 / params.cell_m); // [cells]
-    double const short_wave = std::max(2.0, 400.0 / params.cell_m);
-    Cell const cell{static_cast<std::int64_t>(i) % level.width, static_cast<std::int64_t>(i) / level.width};
-    double const noise = value_noise(params.seed, cell, long_wave) + 0.5 * value_noise(params.seed, cell, short_wave);
-    return static_cast<float>(portable::exp(std::clamp(noise, -1.0, 1.0) * 0.69));
-}
-
-/// Widening of river cells' floors near the sea, where mouths are drowned and filled.
-std::vector<float> filled_mouths(TerrainLevel const& level, double cell_m) {
-    constexpr double reach_m = 3000.0;
-    constexpr float at_mouth = 2.1F;
-    RiverCells const& rivers = level.rivers;
-    auto const offsets = level.offsets();
-    std::vector<float> more(rivers.cell.size());
-    auto const kept = static_cast<float>(portable::exp(-cell_m / reach_m));
-    for (std::size_t n = 0; n < more.size(); ++n) {
-        if (rivers.receiver[n] >= 0) {
-            more[n] = kept * more[rivers.receiver[n]];
-        } else if (std::any_of(offsets.begin(), offsets.end(), [&](std::int64_t offset) {
-                       return level.type[moved(rivers.cell[n], offset)] == CellType::sea;
-                   })) {
-            more[n] = at_mouth;
-        }
-    }
-    return more;
-}
-
-/// Width of a floor relative to that where 1 km² drains. Rivers with larger areas run between the flanks of ranges.
-double growth(double area_km2) {
-    constexpr double confined_km2 = 200.0;
-    return portable::pow(std::min(area_km2, confined_km2), 0.42);
-}
-
-/// [cells] half widths of the floors of river cells.
-std::vector<float> half_widths(TerrainLevel const& level, FloorParams const& params) {
-    double const per_cell_km2 = params.cell_m * params.cell_m * 1e-6;
-    double const per_km = 1000.0 / params.cell_m * params.width_km;
-    std::vector<float> widths = filled_mouths(level, params.cell_m);
-    for (std::size_t n = 0; n < widths.size(); ++n) {
-        double const area_km2 = static_cast<double>(level.area[level.rivers.cell[n]]) * per_cell_km2;
-        widths[n] = (1.0F + widths[n]) * static_cast<float>(per_km * growth(area_km2));
-    }
-    return widths;
-}
-
-} // namespace
 
 void valley_floors(TerrainLevel& level, FloorParams const& params) {
     std::vector<float> const widths = half_widths(level, params);

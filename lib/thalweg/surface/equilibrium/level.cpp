@@ -34,75 +34,6 @@ template <class CoarseOf> void keep_outlets(RiverCells const& fine, RiverCells& 
     mark_held(coarse);
 }
 
-} // namespace
-
-void mark_held(RiverCells& rivers) {
-    std::vector<Hold>& hold = rivers.hold;
-    for (std::size_t n = hold.size(); n-- > 0;) {
-        std::int32_t const r = rivers.receiver[n];
-        if (r >= 0 && hold[n] != Hold::none && hold[r] == Hold::none) {
-            hold[r] = Hold::below;
-        }
-    }
-    for (std::size_t n = 0; n < hold.size(); ++n) {
-        std::int32_t const r = rivers.receiver[n];
-        if (rivers.level[n] != 0 && (hold[r] == Hold::lake || hold[r] == Hold::outlet)) {
-            hold[n] = Hold::lake;
-        }
-    }
-}
-
-RiverCells coarsened(RiverCells const& fine, std::int64_t fine_width, std::int64_t coarse_width,
-                     std::int64_t coarse_height) {
-    auto const above = [&](std::uint32_t cell) {
-        std::int64_t const row = (cell / fine_width - 1) / 2 + 1;
-        std::int64_t const col = (cell % fine_width - 1) / 2 + 1;
-        return static_cast<std::size_t>(row * coarse_width + col);
-    };
-    std::vector<std::int32_t> const steps = steps_to_end(fine);
-    std::vector<std::int32_t> chosen(static_cast<std::size_t>(coarse_width * coarse_height), -1);
-    for (std::size_t n = 0; n < steps.size(); ++n) {
-        std::int32_t& best = chosen[above(fine.cell[n])];
-        if (best < 0 || steps[n] < steps[best]) {
-            best = static_cast<std::int32_t>(n);
-        }
-    }
-    std::vector<std::int32_t> kept;
-    std::copy_if(chosen.begin(), chosen.end(), std::back_inserter(kept), [](std::int32_t n) { return n >= 0; });
-    std::sort(kept.begin(), kept.end(), [&](std::int32_t a, std::int32_t b) {
-        auto const rank = [&](std::int32_t n) { return std::pair{steps[n], n}; };
-        return rank(a) < rank(b);
-    });
-    for (std::size_t n = 0; n < kept.size(); ++n) {
-        chosen[above(fine.cell[kept[n]])] = static_cast<std::int32_t>(n);
-    }
-    RiverCells coarse;
-    for (std::int32_t const from : kept) {
-        auto const n = static_cast<std::size_t>(from);
-        std::size_t const here = above(fine.cell[n]);
-        coarse.cell.push_back(static_cast<std::uint32_t>(here));
-        coarse.level.push_back(fine.level[n]);
-        coarse.number.push_back(fine.number[n]);
-        if (!fine.asked.empty()) {
-            coarse.asked.push_back(fine.asked[n]);
-        }
-        if (fine.receiver[n] < 0) {
-            coarse.receiver.push_back(-1);
-            coarse.direction.push_back(-1);
-            continue;
-        }
-        std::size_t const there = above(fine.cell[fine.receiver[n]]);
-        coarse.receiver.push_back(chosen[there]);
-        coarse.direction.push_back(direction_between(here, there, coarse_width));
-    }
-    if (!fine.hold.empty()) {
-        keep_outlets(fine, coarse, [&](std::size_t n) { return chosen[above(fine.cell[n])]; });
-    }
-    return coarse;
-}
-
-namespace {
-
 // Extent of the influence of a straight boundary of open terrain; a whole number of cells on every level that has it.
 constexpr std::int64_t open_margin = 32;
 
@@ -241,83 +172,11 @@ void take_nearer(NearestRiver& near, std::size_t i, std::size_t from, float leng
     }
 }
 
-} // namespace
-
-PaddedTerrain padded(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params) {
-    std::int64_t const margin = goes_on(params.edge) ? open_margin : 0;
-    return {grown(rivers.grid, margin),
-            margin,
-            Carried(rivers, margin).all(),
-            grown(fields.land, margin),
-            {relative(fields.uplift, fields.land), relative(fields.erodibility, fields.land)}};
-}
-
-namespace {
-
 LevelInput coarser(LevelInput const& fine) {
     LevelExtent const extent{(fine.extent.width + 1) / 2, (fine.extent.height + 1) / 2, fine.extent.corner};
     return {extent, coarsened(fine.rivers, fine.extent.width + 2, extent.width + 2, extent.height + 2),
             fine.land.cells() == 0 ? Mask{} : coarsened(fine.land)};
 }
-
-} // namespace
-
-std::vector<LevelInput> level_inputs(PaddedTerrain& land, Region const& region, Grid const& grid, std::uint64_t seed) {
-    constexpr std::int64_t short_side = 8;
-    constexpr std::int64_t long_side = 40;
-    std::vector<LevelInput> levels;
-    levels.push_back({{land.grid.width, land.grid.height, {-land.margin, -land.margin}},
-                      std::move(land.rivers),
-                      std::move(land.land)});
-    for (;;) {
-        LevelInput coarse = coarser(levels.back());
-        if (region.level > 0 && levels.size() == region.level) {
-            LevelExtent const wide = extent_of(region, grid);
-            coarse.rivers = rivers_of_region(coarse.rivers, coarse.extent, wide, std::int64_t{1} << region.level, seed);
-            coarse.extent = wide;
-        }
-        LevelExtent const& extent = coarse.extent;
-        if (std::min(extent.width, extent.height) < short_side || std::max(extent.width, extent.height) < long_side) {
-            return levels;
-        }
-        levels.push_back(std::move(coarse));
-    }
-}
-
-NearestRiver nearest_river(TerrainLevel const& level, std::vector<float> const& head_start) {
-    return nearest_of(level, level.rivers.cell, head_start);
-}
-
-NearestRiver nearest_of(TerrainLevel const& level, std::vector<std::uint32_t> const& from,
-                        std::vector<float> const& head_start) {
-    auto const cells = static_cast<std::size_t>(level.cells());
-    NearestRiver near{Cells<float>(cells, std::numeric_limits<float>::infinity()),
-                      Cells<std::uint32_t>(cells, NearestRiver::none)};
-    for (std::size_t n = 0; n < from.size(); ++n) {
-        near.distance[from[n]] = head_start.empty() ? 0.0F : -head_start[n];
-        near.number[from[n]] = static_cast<std::uint32_t>(n);
-    }
-    auto const offsets = level.offsets();
-    auto const width = static_cast<std::size_t>(level.width);
-    auto const height = static_cast<std::size_t>(level.height);
-    for (std::size_t row = 1; row + 1 < height; ++row) {
-        for (std::size_t i = row * width + 1; i + 1 < (row + 1) * width; ++i) {
-            for (std::size_t const k : before) {
-                take_nearer(near, i, moved(i, offsets[k]), step_lengths[k]);
-            }
-        }
-    }
-    for (std::size_t row = height - 2; row > 0; --row) {
-        for (std::size_t i = (row + 1) * width - 2; i > row * width; --i) {
-            for (std::size_t const k : before) {
-                take_nearer(near, i, moved(i, -offsets[k]), step_lengths[k]);
-            }
-        }
-    }
-    return near;
-}
-
-namespace {
 
 bool beside(TerrainLevel const& level, std::size_t i, CellType what) {
     auto const offsets = level.offsets();
@@ -333,62 +192,6 @@ void set_banks(TerrainLevel& level) {
         }
     }
 }
-
-} // namespace
-
-Mask coarsened(Mask const& land) {
-    Grid grid = land.grid();
-    grid.width = (land.width() + 1) / 2;
-    grid.height = (land.height() + 1) / 2;
-    Mask coarse(grid);
-    for (std::int64_t row = 0; row < grid.height; ++row) {
-        for (std::int64_t col = 0; col < grid.width; ++col) {
-            int all = 0;
-            int dry = 0;
-            for (std::int64_t r = 2 * row; r < std::min(2 * row + 2, land.height()); ++r) {
-                for (std::int64_t c = 2 * col; c < std::min(2 * col + 2, land.width()); ++c) {
-                    ++all;
-                    dry += land[Cell{c, r}] != 0 ? 1 : 0;
-                }
-            }
-            coarse[Cell{col, row}] = 2 * dry >= all ? 1 : 0;
-        }
-    }
-    return coarse;
-}
-
-void set_cell_types(TerrainLevel& level, Mask const& land, Edge edge, RiverBanks banks) {
-    bool const by_sea = has_sea(edge);
-    CellType const rest = by_sea ? CellType::sea : CellType::outside;
-    CellType const frame = edge == Edge::open || edge == Edge::mainland ? CellType::boundary : rest;
-    CellType const frame_at_rest = edge == Edge::mainland ? CellType::sea : frame;
-    level.type.resize(static_cast<std::size_t>(level.cells()));
-    for (std::int64_t row = 0; row < level.height; ++row) {
-        for (std::int64_t col = 0; col < level.width; ++col) {
-            Cell const inner{std::clamp<std::int64_t>(col, 1, level.width - 2) - 1,
-                             std::clamp<std::int64_t>(row, 1, level.height - 2) - 1};
-            bool const on_frame = inner.col + 1 != col || inner.row + 1 != row;
-            bool const dry = land.cells() == 0 || land[inner] != 0;
-            level.type[row * level.width + col] =
-                on_frame ? (dry ? frame : frame_at_rest) : (dry ? CellType::land : rest);
-        }
-    }
-    for (std::uint32_t const river : level.rivers.cell) {
-        level.type[river] = CellType::river;
-    }
-    if (!by_sea) {
-        each_inner(level, [&](std::size_t i) {
-            if (level.type[i] == CellType::land && beside(level, i, CellType::outside)) {
-                level.type[i] = edge == Edge::open ? CellType::boundary : CellType::rim;
-            }
-        });
-    }
-    if (banks == RiverBanks::kept) {
-        set_banks(level);
-    }
-}
-
-namespace {
 
 // Calls visit(column, byte) with a random byte for each of `count` columns of a row of a level: thirty-two of them use
 // one block of random words.
@@ -406,22 +209,6 @@ void random_bytes(std::uint64_t seed, std::uint64_t stage, std::int64_t row, flo
 }
 
 constexpr std::uint64_t jitter_stage = 0x6a6974746572; // "jitter"
-
-} // namespace
-
-void jitter(TerrainLevel& level, std::uint64_t seed, Run const& run) {
-    level.shift.resize(static_cast<std::size_t>(level.cells()));
-    parallel_ranges(run, level.height, least_rows(level.width), [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t row = begin; row < end; ++row) {
-            std::uint8_t* const codes = &level.shift[row * level.width];
-            random_bytes(seed, jitter_stage, row, level.side, level.width, [&](std::int64_t col, std::uint8_t byte) {
-                codes[col] = byte % (jitter_places * jitter_places);
-            });
-        }
-    });
-}
-
-namespace {
 
 constexpr std::uint64_t start_stage = 0x7374617274; // "start"
 constexpr float first_tangent = 0.05F;
@@ -490,7 +277,253 @@ private:
     std::vector<float> south_;
 };
 
+constexpr double half_stretch = 24.0;   // [finest cells]
+constexpr float fall_of_heads = 0.05F;  // a sixth of the steepest tangent
+constexpr float fall_of_large = 0.005F; // the fall of rivers that drain the whole grid
+
+/// Means over 2 reach + 1 neighbours on a ring.
+std::vector<double> ring_means(std::vector<double> const& values, std::int64_t reach) {
+    auto const n = static_cast<std::int64_t>(values.size());
+    auto const at = [&](std::int64_t k) { return values[((k % n) + n) % n]; };
+    double sum = 0.0;
+    for (std::int64_t k = -reach; k <= reach; ++k) {
+        sum += at(k);
+    }
+    std::vector<double> means(values.size());
+    for (std::int64_t k = 0; k < n; ++k) {
+        means[k] = sum / static_cast<double>(2 * reach + 1);
+        sum += at(k + reach + 1) - at(k - reach);
+    }
+    return means;
+}
+
+float above_rivers(TerrainLevel const& level, std::size_t i, float z) {
+    for (std::int64_t const offset : level.offsets()) {
+        std::int64_t const n = static_cast<std::int64_t>(i) + offset;
+        if (n >= 0 && n < level.cells() && level.type[n] == CellType::river) {
+            z = std::max(z, level.z[n] + level.least * level.side);
+        }
+    }
+    return z;
+}
+
+/// By inner cell, the lowest possible valley: a large river still falls from it to one of the level.
+Cells<float> lowest_valleys(TerrainLevel const& level) {
+    float const each = fall_of_large * level.side;
+    std::vector<float> head_start(level.rivers.cell.size());
+    std::transform(level.rivers.cell.begin(), level.rivers.cell.end(), head_start.begin(),
+                   [&](std::uint32_t cell) { return -level.z[cell] / each; });
+    Cells<float> lowest = nearest_river(level, head_start).distance;
+    std::transform(lowest.begin(), lowest.end(), lowest.begin(), [&](float far) { return far * each; });
+    return lowest;
+}
+
+std::vector<double> heights_of(TerrainLevel const& level, BoundaryCells::Part const& part, Cells<float> const& lowest) {
+    std::vector<double> heights(part.cell.size());
+    for (std::size_t k = 0; k < heights.size(); ++k) {
+        float z = level.z[part.river[k]];
+        if (!lowest.empty() && level.type[part.cell[k]] != CellType::sea) {
+            z = std::min(z, std::max(z - fall_of_heads * part.far[k], lowest[part.inner[k]]));
+        }
+        heights[k] = static_cast<double>(z);
+    }
+    return heights;
+}
+
 } // namespace
+
+void mark_held(RiverCells& rivers) {
+    std::vector<Hold>& hold = rivers.hold;
+    for (std::size_t n = hold.size(); n-- > 0;) {
+        std::int32_t const r = rivers.receiver[n];
+        if (r >= 0 && hold[n] != Hold::none && hold[r] == Hold::none) {
+            hold[r] = Hold::below;
+        }
+    }
+    for (std::size_t n = 0; n < hold.size(); ++n) {
+        std::int32_t const r = rivers.receiver[n];
+        if (rivers.level[n] != 0 && (hold[r] == Hold::lake || hold[r] == Hold::outlet)) {
+            hold[n] = Hold::lake;
+        }
+    }
+}
+
+RiverCells coarsened(RiverCells const& fine, std::int64_t fine_width, std::int64_t coarse_width,
+                     std::int64_t coarse_height) {
+    auto const above = [&](std::uint32_t cell) {
+        std::int64_t const row = (cell / fine_width - 1) / 2 + 1;
+        std::int64_t const col = (cell % fine_width - 1) / 2 + 1;
+        return static_cast<std::size_t>(row * coarse_width + col);
+    };
+    std::vector<std::int32_t> const steps = steps_to_end(fine);
+    std::vector<std::int32_t> chosen(static_cast<std::size_t>(coarse_width * coarse_height), -1);
+    for (std::size_t n = 0; n < steps.size(); ++n) {
+        std::int32_t& best = chosen[above(fine.cell[n])];
+        if (best < 0 || steps[n] < steps[best]) {
+            best = static_cast<std::int32_t>(n);
+        }
+    }
+    std::vector<std::int32_t> kept;
+    std::copy_if(chosen.begin(), chosen.end(), std::back_inserter(kept), [](std::int32_t n) { return n >= 0; });
+    std::sort(kept.begin(), kept.end(), [&](std::int32_t a, std::int32_t b) {
+        auto const rank = [&](std::int32_t n) { return std::pair{steps[n], n}; };
+        return rank(a) < rank(b);
+    });
+    for (std::size_t n = 0; n < kept.size(); ++n) {
+        chosen[above(fine.cell[kept[n]])] = static_cast<std::int32_t>(n);
+    }
+    RiverCells coarse;
+    for (std::int32_t const from : kept) {
+        auto const n = static_cast<std::size_t>(from);
+        std::size_t const here = above(fine.cell[n]);
+        coarse.cell.push_back(static_cast<std::uint32_t>(here));
+        coarse.level.push_back(fine.level[n]);
+        coarse.number.push_back(fine.number[n]);
+        if (!fine.asked.empty()) {
+            coarse.asked.push_back(fine.asked[n]);
+        }
+        if (fine.receiver[n] < 0) {
+            coarse.receiver.push_back(-1);
+            coarse.direction.push_back(-1);
+            continue;
+        }
+        std::size_t const there = above(fine.cell[fine.receiver[n]]);
+        coarse.receiver.push_back(chosen[there]);
+        coarse.direction.push_back(direction_between(here, there, coarse_width));
+    }
+    if (!fine.hold.empty()) {
+        keep_outlets(fine, coarse, [&](std::size_t n) { return chosen[above(fine.cell[n])]; });
+    }
+    return coarse;
+}
+
+PaddedTerrain padded(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params) {
+    std::int64_t const margin = goes_on(params.edge) ? open_margin : 0;
+    return {grown(rivers.grid, margin),
+            margin,
+            Carried(rivers, margin).all(),
+            grown(fields.land, margin),
+            {relative(fields.uplift, fields.land), relative(fields.erodibility, fields.land)}};
+}
+
+std::vector<LevelInput> level_inputs(PaddedTerrain& land, Region const& region, Grid const& grid, std::uint64_t seed) {
+    constexpr std::int64_t short_side = 8;
+    constexpr std::int64_t long_side = 40;
+    std::vector<LevelInput> levels;
+    levels.push_back({{land.grid.width, land.grid.height, {-land.margin, -land.margin}},
+                      std::move(land.rivers),
+                      std::move(land.land)});
+    for (;;) {
+        LevelInput coarse = coarser(levels.back());
+        if (region.level > 0 && levels.size() == region.level) {
+            LevelExtent const wide = extent_of(region, grid);
+            coarse.rivers = rivers_of_region(coarse.rivers, coarse.extent, wide, std::int64_t{1} << region.level, seed);
+            coarse.extent = wide;
+        }
+        LevelExtent const& extent = coarse.extent;
+        if (std::min(extent.width, extent.height) < short_side || std::max(extent.width, extent.height) < long_side) {
+            return levels;
+        }
+        levels.push_back(std::move(coarse));
+    }
+}
+
+NearestRiver nearest_river(TerrainLevel const& level, std::vector<float> const& head_start) {
+    return nearest_of(level, level.rivers.cell, head_start);
+}
+
+NearestRiver nearest_of(TerrainLevel const& level, std::vector<std::uint32_t> const& from,
+                        std::vector<float> const& head_start) {
+    auto const cells = static_cast<std::size_t>(level.cells());
+    NearestRiver near{Cells<float>(cells, std::numeric_limits<float>::infinity()),
+                      Cells<std::uint32_t>(cells, NearestRiver::none)};
+    for (std::size_t n = 0; n < from.size(); ++n) {
+        near.distance[from[n]] = head_start.empty() ? 0.0F : -head_start[n];
+        near.number[from[n]] = static_cast<std::uint32_t>(n);
+    }
+    auto const offsets = level.offsets();
+    auto const width = static_cast<std::size_t>(level.width);
+    auto const height = static_cast<std::size_t>(level.height);
+    for (std::size_t row = 1; row + 1 < height; ++row) {
+        for (std::size_t i = row * width + 1; i + 1 < (row + 1) * width; ++i) {
+            for (std::size_t const k : before) {
+                take_nearer(near, i, moved(i, offsets[k]), step_lengths[k]);
+            }
+        }
+    }
+    for (std::size_t row = height - 2; row > 0; --row) {
+        for (std::size_t i = (row + 1) * width - 2; i > row * width; --i) {
+            for (std::size_t const k : before) {
+                take_nearer(near, i, moved(i, -offsets[k]), step_lengths[k]);
+            }
+        }
+    }
+    return near;
+}
+
+Mask coarsened(Mask const& land) {
+    Grid grid = land.grid();
+    grid.width = (land.width() + 1) / 2;
+    grid.height = (land.height() + 1) / 2;
+    Mask coarse(grid);
+    for (std::int64_t row = 0; row < grid.height; ++row) {
+        for (std::int64_t col = 0; col < grid.width; ++col) {
+            int all = 0;
+            int dry = 0;
+            for (std::int64_t r = 2 * row; r < std::min(2 * row + 2, land.height()); ++r) {
+                for (std::int64_t c = 2 * col; c < std::min(2 * col + 2, land.width()); ++c) {
+                    ++all;
+                    dry += land[Cell{c, r}] != 0 ? 1 : 0;
+                }
+            }
+            coarse[Cell{col, row}] = 2 * dry >= all ? 1 : 0;
+        }
+    }
+    return coarse;
+}
+
+void set_cell_types(TerrainLevel& level, Mask const& land, Edge edge, RiverBanks banks) {
+    bool const by_sea = has_sea(edge);
+    CellType const rest = by_sea ? CellType::sea : CellType::outside;
+    CellType const frame = edge == Edge::open || edge == Edge::mainland ? CellType::boundary : rest;
+    CellType const frame_at_rest = edge == Edge::mainland ? CellType::sea : frame;
+    level.type.resize(static_cast<std::size_t>(level.cells()));
+    for (std::int64_t row = 0; row < level.height; ++row) {
+        for (std::int64_t col = 0; col < level.width; ++col) {
+            Cell const inner{std::clamp<std::int64_t>(col, 1, level.width - 2) - 1,
+                             std::clamp<std::int64_t>(row, 1, level.height - 2) - 1};
+            bool const on_frame = inner.col + 1 != col || inner.row + 1 != row;
+            bool const dry = land.cells() == 0 || land[inner] != 0;
+            level.type[row * level.width + col] =
+                on_frame ? (dry ? frame : frame_at_rest) : (dry ? CellType::land : rest);
+        }
+    }
+    for (std::uint32_t const river : level.rivers.cell) {
+        level.type[river] = CellType::river;
+    }
+    if (!by_sea) {
+        each_inner(level, [&](std::size_t i) {
+            if (level.type[i] == CellType::land && beside(level, i, CellType::outside)) {
+                level.type[i] = edge == Edge::open ? CellType::boundary : CellType::rim;
+            }
+        });
+    }
+    if (banks == RiverBanks::kept) {
+        set_banks(level);
+    }
+}
+
+void jitter(TerrainLevel& level, std::uint64_t seed, Run const& run) {
+    level.shift.resize(static_cast<std::size_t>(level.cells()));
+    parallel_ranges(run, level.height, least_rows(level.width), [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t row = begin; row < end; ++row) {
+            std::uint8_t* const codes = &level.shift[row * level.width];
+            random_bytes(seed, jitter_stage, row, level.side, level.width, [&](std::int64_t col, std::uint8_t byte) {
+                codes[col] = byte % (jitter_places * jitter_places);
+            });
+        }
+    });
+}
 
 void start_from_nothing(TerrainLevel& level, NearestRiver const& near, std::uint64_t seed, Run const& run) {
     set_heights(level, seed, 0.3F, run, [&](std::int64_t row, float* z) {
@@ -567,63 +600,6 @@ void start_rivers(TerrainLevel& level, std::vector<float> const& end_z) {
         z = std::max(z, below + least_tangent * level.side);
     }
 }
-
-namespace {
-
-constexpr double half_stretch = 24.0;   // [finest cells]
-constexpr float fall_of_heads = 0.05F;  // a sixth of the steepest tangent
-constexpr float fall_of_large = 0.005F; // the fall of rivers that drain the whole grid
-
-/// Means over 2 reach + 1 neighbours on a ring.
-std::vector<double> ring_means(std::vector<double> const& values, std::int64_t reach) {
-    auto const n = static_cast<std::int64_t>(values.size());
-    auto const at = [&](std::int64_t k) { return values[((k % n) + n) % n]; };
-    double sum = 0.0;
-    for (std::int64_t k = -reach; k <= reach; ++k) {
-        sum += at(k);
-    }
-    std::vector<double> means(values.size());
-    for (std::int64_t k = 0; k < n; ++k) {
-        means[k] = sum / static_cast<double>(2 * reach + 1);
-        sum += at(k + reach + 1) - at(k - reach);
-    }
-    return means;
-}
-
-float above_rivers(TerrainLevel const& level, std::size_t i, float z) {
-    for (std::int64_t const offset : level.offsets()) {
-        std::int64_t const n = static_cast<std::int64_t>(i) + offset;
-        if (n >= 0 && n < level.cells() && level.type[n] == CellType::river) {
-            z = std::max(z, level.z[n] + level.least * level.side);
-        }
-    }
-    return z;
-}
-
-/// By inner cell, the lowest possible valley: a large river still falls from it to one of the level.
-Cells<float> lowest_valleys(TerrainLevel const& level) {
-    float const each = fall_of_large * level.side;
-    std::vector<float> head_start(level.rivers.cell.size());
-    std::transform(level.rivers.cell.begin(), level.rivers.cell.end(), head_start.begin(),
-                   [&](std::uint32_t cell) { return -level.z[cell] / each; });
-    Cells<float> lowest = nearest_river(level, head_start).distance;
-    std::transform(lowest.begin(), lowest.end(), lowest.begin(), [&](float far) { return far * each; });
-    return lowest;
-}
-
-std::vector<double> heights_of(TerrainLevel const& level, BoundaryCells::Part const& part, Cells<float> const& lowest) {
-    std::vector<double> heights(part.cell.size());
-    for (std::size_t k = 0; k < heights.size(); ++k) {
-        float z = level.z[part.river[k]];
-        if (!lowest.empty() && level.type[part.cell[k]] != CellType::sea) {
-            z = std::min(z, std::max(z - fall_of_heads * part.far[k], lowest[part.inner[k]]));
-        }
-        heights[k] = static_cast<double>(z);
-    }
-    return heights;
-}
-
-} // namespace
 
 BoundaryCells boundary_cells(TerrainLevel const& level, NearestRiver const& near, Beyond beyond) {
     BoundaryCells edge;

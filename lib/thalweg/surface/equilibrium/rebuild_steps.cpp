@@ -66,25 +66,6 @@ void blur_columns(float const* from, float* to, Rows const& rows, std::int64_t b
     }
 }
 
-} // namespace
-
-void blur(float* first, Rows const& rows, BlurParams const& params, Run const& run) {
-    constexpr std::int64_t columns = 256;
-    Cells<float> along(static_cast<std::size_t>(rows.width * rows.height));
-    for (int pass = 0; pass < params.passes; ++pass) {
-        parallel_ranges(run, rows.height, least_rows(rows.width), [&](std::int64_t begin, std::int64_t end) {
-            for (std::int64_t r = begin; r < end; ++r) {
-                blur_row(first + r * rows.stride, &along[r * rows.width], rows.width, params.reach);
-            }
-        });
-        parallel_ranges(run, rows.width, columns, [&](std::int64_t begin, std::int64_t end) {
-            blur_columns(along.data(), first, rows, begin, end, params.reach);
-        });
-    }
-}
-
-namespace {
-
 /// The lowest land two cells from a river cell, on coarse levels one; banks do not count.
 std::optional<std::size_t> lowest_land_beside(TerrainLevel const& level, std::uint32_t cell,
                                               std::array<std::int64_t, 8> const& offsets) {
@@ -104,6 +85,21 @@ std::optional<std::size_t> lowest_land_beside(TerrainLevel const& level, std::ui
 }
 
 } // namespace
+
+void blur(float* first, Rows const& rows, BlurParams const& params, Run const& run) {
+    constexpr std::int64_t columns = 256;
+    Cells<float> along(static_cast<std::size_t>(rows.width * rows.height));
+    for (int pass = 0; pass < params.passes; ++pass) {
+        parallel_ranges(run, rows.height, least_rows(rows.width), [&](std::int64_t begin, std::int64_t end) {
+            for (std::int64_t r = begin; r < end; ++r) {
+                blur_row(first + r * rows.stride, &along[r * rows.width], rows.width, params.reach);
+            }
+        });
+        parallel_ranges(run, rows.width, columns, [&](std::int64_t begin, std::int64_t end) {
+            blur_columns(along.data(), first, rows, begin, end, params.reach);
+        });
+    }
+}
 
 void mark_to_move(TerrainLevel const& level, std::size_t from, float wanted, WallParams const& params,
                   Cells<float>& marks) {

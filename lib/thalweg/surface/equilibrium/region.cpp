@@ -89,62 +89,6 @@ private:
     std::map<std::size_t, std::int32_t> number_;
 };
 
-} // namespace
-
-Region region_around(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params) {
-    bool const given = params.heights != RiverHeights::graded && !rivers.z.empty();
-    if (params.region <= 1.0 || params.edge != Edge::open || fields.land.cells() > 0 || given || ends_inside(rivers)) {
-        return {};
-    }
-    std::int64_t const least = std::min(rivers.grid.width, rivers.grid.height);
-    Region region;
-    while (region.level < finest_level && (least >> (region.level + 1)) >= least_side) {
-        ++region.level;
-    }
-    if (region.level < 2) {
-        return {};
-    }
-    std::int64_t const side = std::int64_t{1} << region.level;
-    auto const wanted =
-        static_cast<double>(std::max(rivers.grid.width, rivers.grid.height)) * 0.5 * (params.region - 1.0);
-    region.margin = std::max<std::int64_t>(4, static_cast<std::int64_t>(wanted / static_cast<double>(side))) * side;
-    return region;
-}
-
-LevelExtent extent_of(Region const& region, Grid const& grid) {
-    std::int64_t const side = std::int64_t{1} << region.level;
-    auto const cells = [&](std::int64_t size) { return (size + 2 * region.margin + side - 1) / side; };
-    return {cells(grid.width), cells(grid.height), {-region.margin, -region.margin}};
-}
-
-RiverCells rivers_of_region(RiverCells const& rivers, LevelExtent const& window, LevelExtent const& region,
-                            std::int64_t side, std::uint64_t seed) {
-    Cell const shift{(window.corner.col - region.corner.col) / side, (window.corner.row - region.corner.row) / side};
-    auto const cell_of = [&](std::size_t n) {
-        auto const i = static_cast<std::int64_t>(rivers.cell[n]);
-        return Cell{i % (window.width + 2) - 1, i / (window.width + 2) - 1};
-    };
-    ExtendedRivers out(region, seed);
-    std::vector<std::int32_t> next(rivers.cell.size(), -1);
-    for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
-        Cell const c = cell_of(n);
-        Cell const step = exit_step(window, c);
-        if (rivers.receiver[n] < 0 && !(step == Cell{0, 0})) {
-            next[n] = out.extend_river({c.col + shift.col, c.row + shift.row}, step, n);
-        }
-    }
-    std::vector<std::int32_t> place(rivers.cell.size());
-    for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
-        Cell const c = cell_of(n);
-        std::int32_t const r = rivers.receiver[n];
-        place[n] = out.put({c.col + shift.col, c.row + shift.row}, r < 0 ? next[n] : place[r], rivers.number[n],
-                           rivers.level[n]);
-    }
-    return out.taken();
-}
-
-namespace {
-
 constexpr std::uint64_t frame_stage = 0x6672616d65; // "frame"
 
 std::size_t cell_at(TerrainLevel const& level, LevelPlace p) {
@@ -238,6 +182,58 @@ void share_out(RegionFrame& frame, TerrainLevel const& level, TerrainLevel const
 }
 
 } // namespace
+
+Region region_around(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params) {
+    bool const given = params.heights != RiverHeights::graded && !rivers.z.empty();
+    if (params.region <= 1.0 || params.edge != Edge::open || fields.land.cells() > 0 || given || ends_inside(rivers)) {
+        return {};
+    }
+    std::int64_t const least = std::min(rivers.grid.width, rivers.grid.height);
+    Region region;
+    while (region.level < finest_level && (least >> (region.level + 1)) >= least_side) {
+        ++region.level;
+    }
+    if (region.level < 2) {
+        return {};
+    }
+    std::int64_t const side = std::int64_t{1} << region.level;
+    auto const wanted =
+        static_cast<double>(std::max(rivers.grid.width, rivers.grid.height)) * 0.5 * (params.region - 1.0);
+    region.margin = std::max<std::int64_t>(4, static_cast<std::int64_t>(wanted / static_cast<double>(side))) * side;
+    return region;
+}
+
+LevelExtent extent_of(Region const& region, Grid const& grid) {
+    std::int64_t const side = std::int64_t{1} << region.level;
+    auto const cells = [&](std::int64_t size) { return (size + 2 * region.margin + side - 1) / side; };
+    return {cells(grid.width), cells(grid.height), {-region.margin, -region.margin}};
+}
+
+RiverCells rivers_of_region(RiverCells const& rivers, LevelExtent const& window, LevelExtent const& region,
+                            std::int64_t side, std::uint64_t seed) {
+    Cell const shift{(window.corner.col - region.corner.col) / side, (window.corner.row - region.corner.row) / side};
+    auto const cell_of = [&](std::size_t n) {
+        auto const i = static_cast<std::int64_t>(rivers.cell[n]);
+        return Cell{i % (window.width + 2) - 1, i / (window.width + 2) - 1};
+    };
+    ExtendedRivers out(region, seed);
+    std::vector<std::int32_t> next(rivers.cell.size(), -1);
+    for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+        Cell const c = cell_of(n);
+        Cell const step = exit_step(window, c);
+        if (rivers.receiver[n] < 0 && !(step == Cell{0, 0})) {
+            next[n] = out.extend_river({c.col + shift.col, c.row + shift.row}, step, n);
+        }
+    }
+    std::vector<std::int32_t> place(rivers.cell.size());
+    for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+        Cell const c = cell_of(n);
+        std::int32_t const r = rivers.receiver[n];
+        place[n] = out.put({c.col + shift.col, c.row + shift.row}, r < 0 ? next[n] : place[r], rivers.number[n],
+                           rivers.level[n]);
+    }
+    return out.taken();
+}
 
 RegionFrame frame_by_region(TerrainLevel& level, TerrainLevel const& region, std::uint64_t seed) {
     Within const within(level, region);

@@ -51,17 +51,6 @@ std::vector<float> greatest_heights(TerrainLevel const& level, EquilibriumLaw co
     return most;
 }
 
-} // namespace
-
-float graded_tangent(TerrainLevel const& level, EquilibriumLaw const& law, std::uint32_t i) {
-    float const area = static_cast<float>(level.area[i]) * level.side * level.side + law.source_area;
-    float const uplift = level.uplift.empty() ? 1.0F : level.uplift[i];
-    float const graded = creep_brings * uplift / (level.erodibility[i] * law.power(area));
-    return std::min(graded, share_of_cap * std::min(level.cap[i], steepest_tangent));
-}
-
-namespace {
-
 /// Long profiles of rivers through prescribed heights: of graded rivers, steeper or gentler where that takes them
 /// there.
 class Profiles {
@@ -183,70 +172,6 @@ std::vector<float> heights_by_lakes(TerrainLevel const& level, EquilibriumLaw co
     return heights_through(rivers, graded_falls(level, law), std::move(asked));
 }
 
-} // namespace
-
-std::vector<float> heights_through(RiverCells const& rivers, std::vector<float> const& fall, std::vector<float> asked) {
-    return Profiles(rivers, fall, std::move(asked)).heights();
-}
-
-void relax_rivers(TerrainLevel& level, EquilibriumLaw const& law) {
-    RiverCells const& rivers = level.rivers;
-    std::vector<float> const most = greatest_heights(level, law);
-    std::vector<float> const by_lakes = heights_by_lakes(level, law);
-    for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
-        if (rivers.receiver[n] < 0) {
-            continue; // an end keeps its height
-        }
-        std::uint32_t const i = rivers.cell[n];
-        float const below = level.z[rivers.cell[rivers.receiver[n]]];
-        if (rivers.level[n] != 0) {
-            level.z[i] = below;
-            continue;
-        }
-        if (!by_lakes.empty() && (rivers.is_held(n) || !std::isnan(rivers.asked[n]))) {
-            level.z[i] = std::max(by_lakes[n], just_above(below));
-            continue;
-        }
-        float const length = level.side * step_lengths[rivers.direction[n]];
-        float const z = std::min(below + graded_tangent(level, law, i) * length, most[n]);
-        level.z[i] = std::max(z, below + least_tangent * length);
-    }
-}
-
-void relax_given_rivers(TerrainLevel& level, EquilibriumLaw const& law, RiverHeights heights) {
-    RiverCells const& rivers = level.rivers;
-    std::vector<float> z = heights_through(rivers, graded_falls(level, law), rivers.asked);
-    auto const is_end = [&](std::size_t n) { return rivers.receiver[n] < 0; };
-    auto const receiver = [&](std::size_t n) { return static_cast<std::size_t>(rivers.receiver[n]); };
-    auto const length = [&](std::size_t n) { return level.side * step_lengths[rivers.direction[n]]; };
-    bool const soft = heights == RiverHeights::soft;
-    if (soft) {
-        for (std::size_t n = z.size(); n-- > 0;) {
-            if (!is_end(n) && rivers.hold_of(receiver(n)) < Hold::lake) {
-                float& below = z[receiver(n)];
-                float const rise = rivers.level[n] != 0 ? 0.0F : least_tangent * length(n);
-                below = std::min(below, z[n] - rise);
-            }
-        }
-    }
-    std::vector<float> const most = soft ? greatest_heights(level, law) : std::vector<float>{};
-    for (std::size_t n = 0; n < z.size(); ++n) {
-        if (!is_end(n)) {
-            float const below = z[receiver(n)];
-            if (rivers.level[n] != 0) {
-                z[n] = below;
-            } else if (soft && !rivers.is_held(n)) {
-                z[n] = std::max(std::min(z[n], most[n]), below + least_tangent * length(n));
-            } else {
-                z[n] = std::max(z[n], just_above(below));
-            }
-        }
-        level.z[rivers.cell[n]] = z[n];
-    }
-}
-
-namespace {
-
 /// The height above which a river cell is perched.
 float highest_lawful(TerrainLevel const& level, std::uint32_t cell, float tangent) {
     float low = std::numeric_limits<float>::infinity();
@@ -276,100 +201,6 @@ void lower_reach(TerrainLevel& level, std::size_t from, float z, float step) {
 bool is_perched(TerrainLevel const& level, std::uint32_t cell, float tangent) {
     return level.z[cell] > highest_lawful(level, cell, tangent);
 }
-
-} // namespace
-
-bool leaves_grid(RiverCells const& rivers, std::size_t n) {
-    std::int32_t const r = rivers.receiver[n];
-    return r < 0 || rivers.number[r] < 0;
-}
-
-bool runs_through(RiverCells const& rivers, std::size_t n, std::size_t cell, int steps) {
-    for (; rivers.cell[n] != cell; --steps) {
-        if (steps == 0 || rivers.receiver[n] < 0) {
-            return false;
-        }
-        n = static_cast<std::size_t>(rivers.receiver[n]);
-    }
-    return true;
-}
-
-std::vector<std::int64_t> walled_cells(TerrainLevel const& level, float tangent, Walls walls) {
-    constexpr int steps = 4; // reaches the second ring, with a bend
-    RiverCells const& rivers = level.rivers;
-    std::vector<std::int64_t> numbers;
-    for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
-        bool const counts = walls != Walls::by_lakes || rivers.hold_of(n) != Hold::none;
-        if (rivers.number[n] < 0 || !counts || !is_perched(level, rivers.cell[n], tangent)) {
-            continue;
-        }
-        bool walled = false;
-        each_of_second_ring(level, rivers.cell[n], [&](std::size_t i) {
-            bool const lower = level.z[rivers.cell[n]] > level.z[i] + tangent * level.side;
-            bool const counted = walls == Walls::land ? is_land(level.type[i]) && !is_bank(level.type[i])
-                                                      : !runs_through(rivers, n, i, steps);
-            walled = walled || (lower && counted);
-        });
-        if (walled) {
-            numbers.push_back(rivers.number[n]);
-        }
-    }
-    std::sort(numbers.begin(), numbers.end());
-    return numbers;
-}
-
-void lower_perched(TerrainLevel& level, float tangent, float step) {
-    constexpr std::size_t passes = 2; // digging lowers the surroundings of other cells
-    RiverCells const& rivers = level.rivers;
-    std::size_t const count = rivers.cell.size();
-    for (std::size_t k = 0; k < passes * count; ++k) {
-        std::size_t const n = k % count;
-        if (!leaves_grid(rivers, n) && rivers.level[n] == 0 && rivers.hold_of(n) != Hold::outlet) {
-            float& z = level.z[rivers.cell[n]];
-            float const least = level.z[rivers.cell[rivers.receiver[n]]] + step;
-            float const lawful = highest_lawful(level, rivers.cell[n], tangent);
-            z = std::max(std::min(z, lawful), std::min(z, least));
-            if (z > lawful) {
-                lower_reach(level, n, lawful, step);
-            }
-        }
-    }
-}
-
-void raise_below_perched(TerrainLevel& level, float tangent) {
-    constexpr std::int64_t reach = 4; // [cells]
-    Grid frame;
-    frame.width = level.width;
-    frame.height = level.height;
-    RiverCells const& rivers = level.rivers;
-    for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
-        if (rivers.number[n] < 0 || !is_perched(level, rivers.cell[n], tangent)) {
-            continue;
-        }
-        Cell const at{rivers.cell[n] % level.width, rivers.cell[n] / level.width};
-        float const z = level.z[rivers.cell[n]];
-        cells_around(frame, at, reach, [&](Cell c) {
-            std::int64_t const far = std::max(std::abs(c.col - at.col), std::abs(c.row - at.row));
-            auto const i = static_cast<std::size_t>(c.row * level.width + c.col);
-            if (far > 1 && is_land(level.type[i])) {
-                level.z[i] = std::max(level.z[i], z - tangent * level.side * static_cast<float>(far - 1));
-            }
-        });
-    }
-}
-
-void raise_land_beside(TerrainLevel& level, float tangent) {
-    for (std::uint32_t const river : level.rivers.cell) {
-        float const least = level.z[river] - tangent * level.side;
-        each_of_second_ring(level, river, [&](std::size_t i) {
-            if (is_land(level.type[i]) && !is_bank(level.type[i])) {
-                level.z[i] = std::max(level.z[i], least);
-            }
-        });
-    }
-}
-
-namespace {
 
 constexpr std::int32_t longest_tip = 200;     // [cells] more is not a tip
 constexpr std::int32_t longest_touching = 32; // [cells] the same beside another river
@@ -507,19 +338,6 @@ std::vector<std::int64_t> remove_tips(TerrainLevel& level, std::vector<std::uint
     return numbers;
 }
 
-} // namespace
-
-std::vector<std::int64_t> remove_perched_tips(TerrainLevel& level, float tangent, TipBanks banks) {
-    auto const perched = [&](std::size_t n) { return is_perched(level, level.rivers.cell[n], tangent); };
-    return remove_tips(level, marked_tips(level.rivers, upstream_of(level.rivers), longest_tip, perched), banks);
-}
-
-std::vector<std::int64_t> remove_touching_tips(TerrainLevel& level) {
-    return remove_tips(level, touching_heads(level), TipBanks::rise);
-}
-
-namespace {
-
 constexpr int passes = 4;
 constexpr float margin = 0.02F; // relative to a fall, above float rounding
 
@@ -608,6 +426,172 @@ private:
 };
 
 } // namespace
+
+float graded_tangent(TerrainLevel const& level, EquilibriumLaw const& law, std::uint32_t i) {
+    float const area = static_cast<float>(level.area[i]) * level.side * level.side + law.source_area;
+    float const uplift = level.uplift.empty() ? 1.0F : level.uplift[i];
+    float const graded = creep_brings * uplift / (level.erodibility[i] * law.power(area));
+    return std::min(graded, share_of_cap * std::min(level.cap[i], steepest_tangent));
+}
+
+std::vector<float> heights_through(RiverCells const& rivers, std::vector<float> const& fall, std::vector<float> asked) {
+    return Profiles(rivers, fall, std::move(asked)).heights();
+}
+
+void relax_rivers(TerrainLevel& level, EquilibriumLaw const& law) {
+    RiverCells const& rivers = level.rivers;
+    std::vector<float> const most = greatest_heights(level, law);
+    std::vector<float> const by_lakes = heights_by_lakes(level, law);
+    for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+        if (rivers.receiver[n] < 0) {
+            continue; // an end keeps its height
+        }
+        std::uint32_t const i = rivers.cell[n];
+        float const below = level.z[rivers.cell[rivers.receiver[n]]];
+        if (rivers.level[n] != 0) {
+            level.z[i] = below;
+            continue;
+        }
+        if (!by_lakes.empty() && (rivers.is_held(n) || !std::isnan(rivers.asked[n]))) {
+            level.z[i] = std::max(by_lakes[n], just_above(below));
+            continue;
+        }
+        float const length = level.side * step_lengths[rivers.direction[n]];
+        float const z = std::min(below + graded_tangent(level, law, i) * length, most[n]);
+        level.z[i] = std::max(z, below + least_tangent * length);
+    }
+}
+
+void relax_given_rivers(TerrainLevel& level, EquilibriumLaw const& law, RiverHeights heights) {
+    RiverCells const& rivers = level.rivers;
+    std::vector<float> z = heights_through(rivers, graded_falls(level, law), rivers.asked);
+    auto const is_end = [&](std::size_t n) { return rivers.receiver[n] < 0; };
+    auto const receiver = [&](std::size_t n) { return static_cast<std::size_t>(rivers.receiver[n]); };
+    auto const length = [&](std::size_t n) { return level.side * step_lengths[rivers.direction[n]]; };
+    bool const soft = heights == RiverHeights::soft;
+    if (soft) {
+        for (std::size_t n = z.size(); n-- > 0;) {
+            if (!is_end(n) && rivers.hold_of(receiver(n)) < Hold::lake) {
+                float& below = z[receiver(n)];
+                float const rise = rivers.level[n] != 0 ? 0.0F : least_tangent * length(n);
+                below = std::min(below, z[n] - rise);
+            }
+        }
+    }
+    std::vector<float> const most = soft ? greatest_heights(level, law) : std::vector<float>{};
+    for (std::size_t n = 0; n < z.size(); ++n) {
+        if (!is_end(n)) {
+            float const below = z[receiver(n)];
+            if (rivers.level[n] != 0) {
+                z[n] = below;
+            } else if (soft && !rivers.is_held(n)) {
+                z[n] = std::max(std::min(z[n], most[n]), below + least_tangent * length(n));
+            } else {
+                z[n] = std::max(z[n], just_above(below));
+            }
+        }
+        level.z[rivers.cell[n]] = z[n];
+    }
+}
+
+bool leaves_grid(RiverCells const& rivers, std::size_t n) {
+    std::int32_t const r = rivers.receiver[n];
+    return r < 0 || rivers.number[r] < 0;
+}
+
+bool runs_through(RiverCells const& rivers, std::size_t n, std::size_t cell, int steps) {
+    for (; rivers.cell[n] != cell; --steps) {
+        if (steps == 0 || rivers.receiver[n] < 0) {
+            return false;
+        }
+        n = static_cast<std::size_t>(rivers.receiver[n]);
+    }
+    return true;
+}
+
+std::vector<std::int64_t> walled_cells(TerrainLevel const& level, float tangent, Walls walls) {
+    constexpr int steps = 4; // reaches the second ring, with a bend
+    RiverCells const& rivers = level.rivers;
+    std::vector<std::int64_t> numbers;
+    for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+        bool const counts = walls != Walls::by_lakes || rivers.hold_of(n) != Hold::none;
+        if (rivers.number[n] < 0 || !counts || !is_perched(level, rivers.cell[n], tangent)) {
+            continue;
+        }
+        bool walled = false;
+        each_of_second_ring(level, rivers.cell[n], [&](std::size_t i) {
+            bool const lower = level.z[rivers.cell[n]] > level.z[i] + tangent * level.side;
+            bool const counted = walls == Walls::land ? is_land(level.type[i]) && !is_bank(level.type[i])
+                                                      : !runs_through(rivers, n, i, steps);
+            walled = walled || (lower && counted);
+        });
+        if (walled) {
+            numbers.push_back(rivers.number[n]);
+        }
+    }
+    std::sort(numbers.begin(), numbers.end());
+    return numbers;
+}
+
+void lower_perched(TerrainLevel& level, float tangent, float step) {
+    constexpr std::size_t passes = 2; // digging lowers the surroundings of other cells
+    RiverCells const& rivers = level.rivers;
+    std::size_t const count = rivers.cell.size();
+    for (std::size_t k = 0; k < passes * count; ++k) {
+        std::size_t const n = k % count;
+        if (!leaves_grid(rivers, n) && rivers.level[n] == 0 && rivers.hold_of(n) != Hold::outlet) {
+            float& z = level.z[rivers.cell[n]];
+            float const least = level.z[rivers.cell[rivers.receiver[n]]] + step;
+            float const lawful = highest_lawful(level, rivers.cell[n], tangent);
+            z = std::max(std::min(z, lawful), std::min(z, least));
+            if (z > lawful) {
+                lower_reach(level, n, lawful, step);
+            }
+        }
+    }
+}
+
+void raise_below_perched(TerrainLevel& level, float tangent) {
+    constexpr std::int64_t reach = 4; // [cells]
+    Grid frame;
+    frame.width = level.width;
+    frame.height = level.height;
+    RiverCells const& rivers = level.rivers;
+    for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+        if (rivers.number[n] < 0 || !is_perched(level, rivers.cell[n], tangent)) {
+            continue;
+        }
+        Cell const at{rivers.cell[n] % level.width, rivers.cell[n] / level.width};
+        float const z = level.z[rivers.cell[n]];
+        cells_around(frame, at, reach, [&](Cell c) {
+            std::int64_t const far = std::max(std::abs(c.col - at.col), std::abs(c.row - at.row));
+            auto const i = static_cast<std::size_t>(c.row * level.width + c.col);
+            if (far > 1 && is_land(level.type[i])) {
+                level.z[i] = std::max(level.z[i], z - tangent * level.side * static_cast<float>(far - 1));
+            }
+        });
+    }
+}
+
+void raise_land_beside(TerrainLevel& level, float tangent) {
+    for (std::uint32_t const river : level.rivers.cell) {
+        float const least = level.z[river] - tangent * level.side;
+        each_of_second_ring(level, river, [&](std::size_t i) {
+            if (is_land(level.type[i]) && !is_bank(level.type[i])) {
+                level.z[i] = std::max(level.z[i], least);
+            }
+        });
+    }
+}
+
+std::vector<std::int64_t> remove_perched_tips(TerrainLevel& level, float tangent, TipBanks banks) {
+    auto const perched = [&](std::size_t n) { return is_perched(level, level.rivers.cell[n], tangent); };
+    return remove_tips(level, marked_tips(level.rivers, upstream_of(level.rivers), longest_tip, perched), banks);
+}
+
+std::vector<std::int64_t> remove_touching_tips(TerrainLevel& level) {
+    return remove_tips(level, touching_heads(level), TipBanks::rise);
+}
 
 void enforce_receivers(TerrainLevel& level, float least) {
     Keeper keeper(level, least);
