@@ -8,6 +8,28 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 
+// Idea: Diffusion-limited aggregation. Random walkers come from far away, one at a time, and stick
+// where they touch the cluster. The probability that a walker arrives at a site solves Laplace's
+// equation with 0 on the cluster: tips stand out and catch most walkers, bays are screened by them.
+// So tips grow and split, and the cluster becomes a tree of arms with arms. With sticking S < 1
+// walkers get deeper into the bays, and arms grow thicker; a site that must be visited M times
+// first averages out chance, and arms grow straighter. Empty space costs little: a walker jumps to
+// the boundary of the largest square that is known to be free, by the exact law with which the walk
+// leaves it, and one that is far away returns to its launch circle by the exterior Poisson kernel.
+// Source: Witten and Sander 1981; S and M as in Cao, Long and Lü 2009, equation 1 and section 2
+// (Chiu, Lee and Tu 1992). The jumps are ours: docs/decisions/0005-growth.md; arms: 0006-arms.md.
+// Cost: time grows as the number of particles ^ 1.16 (docs/performance.md: 2.0 us and 69 bytes a
+// particle for 100 000); memory as the area of the cluster. S near 0 costs walkers:
+// least_arrivals(). One thread, since each walker meets the cluster that those before it left.
+// Not for: many basins or a region of given shape (forest/grow_forest.hpp); a bifurcation ratio
+// that is known (tokunaga/grow_tokunaga.hpp). Arms follow the axes of the lattice, the more the
+// larger M: turn the network afterwards (network/planform/rotate.hpp). A cluster is cells, not
+// rivers: network/vectorise/ thins, traces and prunes it.
+// Example:
+//     Cluster const cluster = grow_dla({.particles = 30000, .visits = 3, .seed = 1});
+//     Branch const arm = pick_branch(cluster, {.choice = BranchChoice::west});
+//     Cell const first = arm.cells.front(); // relative to the seed, which is cell (0, 0)
+
 namespace thalweg::growth {
 
 enum class VisitRule : std::uint8_t {

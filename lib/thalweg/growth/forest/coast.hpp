@@ -8,6 +8,24 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 
+// Idea: An island is the highest 42 % of the grid's cells by a height that falls outward as an oval
+// does. Noise of many wavelengths bends the plane in which the oval lies, which makes bays and
+// peninsulas, and moves its level, which makes the fine coast. Taking a share of cells instead of a
+// level keeps the size of the land whatever the noise. Outlets are drawn from the coast one by one
+// in random order, earlier where more land lies around them (the cube of its share), each at a
+// distance from the others that is random, too; where too few fit, distances shrink by 0.7.
+// Source: ours, but for the noise, which is Perlin's (1985); each octave is turned and shifted, so
+// that no axis shows.
+// Cost: O(n log n) for n cells (octaves; the level needs a partial sort). Rows run on all cores,
+// lakes and islets are removed on one. Outlets: O(c log c) for c cells of coast.
+// Not for: real coasts (network/import/land_and_sea.hpp). The noise has no physics: no cliffs, no
+// deltas, no beaches.
+// Example:
+//     Mask const land = shape_island(grid, {.ruggedness = 0.6, .seed = 3});
+//     std::vector<Cell> const outlets = spread_outlets(land, coast_cells(land), {.count = 12});
+//     PlantedForest const rivers = plant_forest(land, outlets); // grow_forest.hpp
+// More: docs/rivers.md, "Forests: many basins".
+
 namespace thalweg::growth {
 
 /// Options of shape_island().

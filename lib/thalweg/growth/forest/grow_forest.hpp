@@ -11,6 +11,29 @@
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/growth/dla/grow_dla.hpp>
 
+// Idea: Diffusion-limited aggregation with walkers from everywhere. A walker starts at a uniform
+// cell of the region and joins the first tree that it meets, if there is room. A branch therefore
+// grows in proportion to the area that has no nearer branch, as a river fed by groundwater does,
+// and trees from many outlets share the land among them: divides form where neither grows. A
+// particle is s to s + 1 cells from its parent in any direction, and keeps 2 s from whatever it
+// does not meet; these distances leave room for divides, hide the lattice and make crossings
+// impossible, so that nothing is thinned, traced or checked afterwards. Cells that may still hold a
+// particle are counted: when none is left, the region is full.
+// Source: Witten and Sander 1981 for aggregation; Petroff et al. 2013 for growth in a Poisson
+// field. Steps and distances are ours: docs/decisions/0014-forest.md.
+// Cost: a full region holds about cells / (2 s^2) particles. Walkers jump over free squares as in
+// dla/grow_dla.hpp and do not start in pockets where nothing can grow. docs/performance.md: 336 ns
+// a cell on 40 x 40 cells, 46 bytes a cell, time as cells ^ 1.23. One thread: each walker depends
+// on those before it.
+// Not for: one large basin with a main valley (grow_dla, grow_tokunaga): trees of a forest compete,
+// so a basin is as large as its neighbours allow. Land narrower than about s + 5 cells gets no
+// river from plant_forest. A region has at most 2^20 cells a side.
+// Example:
+//     PlantedForest const grown = plant_forest(land, outlets, {.step_cells = 6, .visits = 2});
+//     StreamNetwork const& rivers = grown.network;     // one tree an outlet
+//     std::vector<Finding> const& notes = grown.notes; // outlets without room, dry land
+// More: docs/rivers.md, "Forests: many basins".
+
 namespace thalweg::growth {
 
 /// Options of grow_forest().

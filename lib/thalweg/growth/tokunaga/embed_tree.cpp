@@ -17,6 +17,8 @@
 #include <thalweg/geometry/polylines.hpp>
 #include <thalweg/growth/tokunaga/internal/embed_tree.hpp>
 
+// Described in docs/algorithms/forest_spreading.md.
+
 namespace thalweg::growth {
 
 Vec2 centroid_of(std::vector<Vec2> const& ring) {

@@ -23,6 +23,8 @@
 #include <thalweg/growth/tokunaga/internal/embed_tree.hpp>
 #include <thalweg/growth/tokunaga/internal/grow_strokes.hpp>
 
+// Described in docs/algorithms/forest_spreading.md.
+
 namespace thalweg::growth {
 namespace {
 

@@ -10,6 +10,25 @@
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/growth/tokunaga/grow_tokunaga.hpp>
 
+// Idea: Somebody draws the main rivers, the program adds the tributaries. Each stroke becomes the
+// trunk of a Tokunaga tree of its own, whose trunk links are pinned to places along the stroke. A
+// stroke owns the land that is nearest to it (distances relative to the strokes' lengths, so that a
+// short stroke takes little from a long one) within its reach. The side branches of the trunk are
+// dealt to the banks in proportion to the land there, the largest first. Then all trees are spread
+// over their land and settled together, as embed_tree does with one.
+// Source: Northeast Normal University 2015, equation 9 (refinements by the length of a stroke);
+// land and banks are ours: docs/decisions/0010-embedding.md.
+// Cost: as embed_tree for the links of all strokes, besides pairs of strokes and a search over all
+// strokes for each sample of land. One thread.
+// Not for: rivers that stay as drawn and get no branches (network/import/import_lines.hpp); strokes
+// that cross are refused. Trunks run along the stroke between evenly spaced nodes: bends shorter
+// than their distance are cut.
+// Example:
+//     RiverLines strokes;
+//     strokes.lines.push_back({.vertices = {{3000.0, 10.0, 0.0}, {2600.0, 4000.0, 0.0}}});
+//     GrownStrokes const grown = grow_strokes(strokes, grid, {.tree = {.generator = 3}});
+// More: docs/rivers.md, "Networks"; docs/algorithms/forest_spreading.md.
+
 namespace thalweg::growth {
 
 /// Options of grow_strokes().

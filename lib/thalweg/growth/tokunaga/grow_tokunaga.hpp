@@ -8,6 +8,27 @@
 
 #include <thalweg/core/run/run.hpp>
 
+// Idea: A river network looks alike at every scale: in the mean a stream has T_k side branches k
+// orders below its own, and T_k = a c^(k-1). To grow such a tree, start with one link and refine:
+// every source link becomes a generator (a trunk of lambda links, lambda - 1 side branches and two
+// sources), every other link a chain with side branches of its own. A refinement raises all orders
+// by one, so an old side branch keeps its place in the law and the new ones enter as the lowest
+// order. The mean number of side branches that a link gets decides the law: constant means give T_1
+// and T_2 only; with a mean that follows the order of the link's stream (SideRule::tokunaga) the
+// recursion closes for every k.
+// Source: Northeast Normal University 2015, section 2.1, equations 1 to 6 (Tokunaga 1978); the mean
+// by order and its measured T_k are ours: docs/rivers.md, "What the thesis prints and what holds".
+// R_B: Peckham 1995.
+// Cost: O(n) time and memory for n links, 32 bytes a link of the result; n grows by about R_B with
+// each order, which is why max_links exists. One thread.
+// Not for: places of rivers. This is topology alone: embed_tree.hpp and grow_strokes.hpp draw it.
+// Lambda = 1 has no side branches; lambda = 2 (R_B = 4) suits most rivers.
+// Example:
+//     TokunagaTree const tree = grow_tokunaga({.seed = 1, .generator = 2, .order = 6});
+//     // tree.links[0] is the link at the outlet, of order 6
+//     double const expected = tokunaga_laws(2).bifurcation; // 4
+// More: docs/rivers.md, "Networks".
+
 namespace thalweg::growth {
 
 /// How many side branches a refinement adds to an interior link.

@@ -12,6 +12,24 @@
 #include <thalweg/core/vec.hpp>
 #include <thalweg/growth/tokunaga/grow_tokunaga.hpp>
 
+// Idea: An L-system rewrites all signs of a word at once, by rules such as F -> F[++G]F. A turtle
+// reads the word: letters are steps, + and - turns, brackets remember a place and return to it. So
+// a few rules describe a branching system, and every iteration replaces each link by a small tree.
+// The same signs also write down a tree that exists (write_lsystem): F a link, G the link of a
+// source.
+// Source: Prusinkiewicz and Lindenmayer 1990, sections 1.2 and 1.7; the rules for rivers: Northeast
+// Normal University 2015, section 2.2, of which F -> FF and one rule for lambda = 3 break its own
+// law (docs/rivers.md, "What the thesis prints and what holds").
+// Cost: linear in the length of the word, which grows exponentially with iterations; 20 million
+// signs at most. One thread.
+// Not for: networks for terrain. The turtle turns by fixed angles and knows no other branch, so
+// lines cross (13 to 31 % of the links after five refinements): embed grow_tokunaga's tree instead.
+// Example:
+//     LSystem const rules = read_rules("axiom G\nG -> F[--G]F[-G][+G]\nF -> F[++G]F\n", "rules");
+//     std::string const word = rewrite(rules, 7);
+//     std::vector<std::vector<Vec2>> const lines = draw_word(word, rules.angle_deg);
+// More: docs/rivers.md, "Networks".
+
 namespace thalweg::growth {
 
 /// Writes a network as the word of an L-system: F a link, G a source's link, [ ] a branch, + and - turns to the left

@@ -10,6 +10,8 @@
 #include <thalweg/geometry/nearby.hpp>
 #include <thalweg/growth/tokunaga/internal/embed_tree.hpp>
 
+// Described in docs/algorithms/forest_spreading.md.
+
 namespace thalweg::growth {
 namespace {
 

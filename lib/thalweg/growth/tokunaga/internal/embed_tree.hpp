@@ -13,6 +13,8 @@
 #include <thalweg/geometry/segment_grid.hpp>
 #include <thalweg/growth/tokunaga/grow_tokunaga.hpp>
 
+// Described in docs/algorithms/forest_spreading.md.
+
 namespace thalweg::growth {
 
 /// Area-weighted centroid of a ring [m].

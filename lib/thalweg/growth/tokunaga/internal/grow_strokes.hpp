@@ -11,6 +11,8 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/growth/tokunaga/grow_tokunaga.hpp>
 
+// Described in docs/algorithms/forest_spreading.md.
+
 namespace thalweg::growth {
 
 using StrokeId = std::int64_t; ///< index of a stroke in its file; -1: none
