@@ -10,6 +10,22 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 
+// Idea: A solver needs rivers as cells, each with one receiver, and needs that water in a cell has
+// no other way. Arcs are drawn from the outlets up, and a cell belongs to the arc that is nearest
+// to its outlet; an arc that runs into cells of another goes on in it. Then short cuts are taken:
+// where a river comes back beside itself within a few cells, water would jump by the steepest
+// descent anyway, so that the cell is led to the farthest of the next cells that touches it, and
+// what is cut off is left out. In the end no cell touches another of the next cells but its
+// receiver, and steepest descent follows the river.
+// Source: ours.
+// Cost: O(c look_cells) for c cells a pass, in few passes, besides 4 bytes a cell of the grid. One
+// thread.
+// Not for: heights alone (vectorise/rasterise.hpp). Two rivers closer than a cell become one
+// channel: the notes (`captured`) name them; smaller cells part them (import/choose_cell.hpp).
+// Example:
+//     ChannelsOfArcs const drawn = channels(network, grid);
+//     std::int64_t const first = drawn.channels.cell[drawn.of_arc[0].front()]; // a cell's index
+
 namespace thalweg::network {
 
 /// Options of channels().

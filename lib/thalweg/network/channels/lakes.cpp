@@ -24,6 +24,8 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/core/same_grid.hpp>
 
+// Described in docs/algorithms/lake_flooding.md.
+
 namespace thalweg::network {
 namespace {
 

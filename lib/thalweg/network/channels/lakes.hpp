@@ -10,6 +10,23 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/network/channels/channels.hpp>
 
+// Idea: A lake is a set of cells that all drain to one outlet and are as high as it. The outlet is,
+// of the river cells where water leaves the area for good, the one with the most river cells
+// upstream; from there a breadth-first search gives each cell its receiver, so that ways through
+// the lake are shortest and none is cut off. Rivers that would leave elsewhere run dry and are cut.
+// choose_lakes invents areas: each grows from a river cell through noise, five times as easily
+// along the river, to a size whose logarithm is uniform, and its shore is smoothed once.
+// Source: ours: docs/algorithms/lake_flooding.md.
+// Cost: a pass is O(grid) for labels, and O(c + l w) for c channel cells, l lake cells and ways of
+// length w; one pass where no lake takes over another's river. One thread.
+// Not for: levels that are asked for (surface/equilibrium gives them to outlets); depressions of a
+// DEM (flow/condition.hpp); lakes with several outlets or with none.
+// Example:
+//     ChannelsOfArcs const drawn = channels(network, grid);
+//     Raster<std::int32_t> const labels = choose_lakes(drawn, area_m2, {.share = 0.2, .seed = 3});
+//     Flooded const flooded = flood_lakes(drawn, labels);
+// More: docs/equilibrium.md, "Lakes".
+
 namespace thalweg::network {
 
 /// Options of choose_lakes().

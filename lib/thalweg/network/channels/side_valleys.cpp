@@ -19,6 +19,8 @@
 #include <thalweg/geometry/nearby.hpp>
 #include <thalweg/geometry/segment_grid.hpp>
 
+// Described in docs/equilibrium.md.
+
 namespace thalweg::network {
 namespace {
 

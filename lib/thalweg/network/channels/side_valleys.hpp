@@ -10,6 +10,22 @@
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/flow/route.hpp>
 
+// Idea: Terrain around given rivers has valleys of its own. Cells outside the channels through
+// which enough water flows are traced down their receivers, as streams of any DEM, but they end
+// where a given line is near: there the nearest point of the line becomes a confluence, and the
+// given arc is split without moving a vertex. A valley that would meet another line elsewhere is
+// found by exact predicates and left out with all above it, until none does.
+// Source: O'Callaghan and Mark 1984 (streams by contributing area); joining them to lines is ours.
+// Cost: O(cells) for the mask and O(n log n) for n segments a pass; passes repeat while valleys are
+// left out. One thread.
+// Not for: DEMs without given rivers (flow/extract_streams.hpp). A low support fills hillsides with
+// rills that are no streams.
+// Example:
+//     SideValleys const all = side_valleys(elevated, channels_of_rivers, dem, flow_field,
+//                                          {.support_cells = 400});
+//     StreamNetwork const& rivers = all.network.planform; // Arc::is_input is false for valleys
+// More: docs/equilibrium.md, "Valleys of the terrain as arcs".
+
 namespace thalweg::network {
 
 /// Options of side_valleys().

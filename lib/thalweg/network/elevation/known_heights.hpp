@@ -8,6 +8,21 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/stream_network.hpp>
 
+// Idea: Heights of DEMs and files are noisy, and a river must not rise downstream. The running
+// minimum from the sources down (lower_rises, drape) gives the highest profile that nowhere exceeds
+// what was given: it cuts through dams and bridges, and never fills. elevate_from_dem reads the DEM
+// that was built around the rivers, where a line passes cells of its bank: only cells of its
+// channel count, and vertices between are interpolated. keep_heights goes on beyond known heights
+// with the river's own slope of the last kilometre.
+// Source: ours (docs/equilibrium.md, "Heights of rivers").
+// Cost: O(vertices), one walk or two. One thread.
+// Not for: pits from noise in a DEM that shall keep its level: a running minimum is biased low by
+// the depth of the noise. Where rises exceed noise_of_heights, the river is probably drawn uphill.
+// Example:
+//     Lowered const lowered = lower_rises(network, arc_z);
+//     double const worst_m = *std::max_element(lowered.by_m.begin(), lowered.by_m.end());
+//     ElevatedNetwork const on_dem = drape(network, dem);
+
 namespace thalweg::network {
 
 /// Takes a network's heights from a DEM.

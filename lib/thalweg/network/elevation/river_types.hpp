@@ -9,6 +9,21 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 
+// Idea: Rosgen's classification names reaches by form, and each type has a usual range of slopes
+// (Aa+ above 10 %, C below 2 %). Types thus stand for slopes where no heights are known: a user
+// writes letters on lines, or they follow from Strahler's order, steep types for headwaters and
+// gentle ones for trunks. Types D and DA, and reaches near the coast, are braided.
+// Source: Rosgen 1994, as in Northeast Normal University 2015, section 3 and table 2; classes that
+// the table leaves open end at 0.1 % and 20 %.
+// Cost: O(arcs). One thread.
+// Not for: classifying real reaches, which needs entrenchment, width, sinuosity and bed material.
+// Where drainage areas are known, set_heights_graded (set_heights.hpp) is smoother: types step from
+// arc to arc.
+// Example:
+//     RiverTypes const types = assign_types(network, order(network), {.coast_m = 2000.0});
+//     ElevatedNetwork const rivers = set_heights_by_type(network, types); // set_heights.hpp
+// More: docs/rivers.md, "Heights of rivers".
+
 namespace thalweg::network {
 
 /// The range of channel slopes of a river type. Law: 0 < low < high, low <= usual <= high. Classes that the table

@@ -10,6 +10,25 @@
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/network/elevation/river_types.hpp>
 
+// Idea: Three ways to give heights to rivers that have none. set_heights: slope times the straight
+// distance from the outlet, the paper's rule, by which a stream that bends back runs uphill; its
+// repair takes the least heights above these that fall everywhere, in one walk up the tree.
+// set_heights_graded: S = k A^-theta, the profile of a river in balance with uniform uplift. The
+// integral along the arc is exact (area linear along it, Gauss quadrature), and one factor k makes
+// the main stem as steep as asked. set_heights_by_type: a slope for each arc by its river type.
+// Source: Cao, Long and Lü 2009, section 3.3 (docs/decisions/0004-heights.md); Flint 1974;
+// Northeast Normal University 2015, section 3 and table 2.
+// Cost: O(vertices), graded with some evaluations of a power for each. One thread.
+// Not for: rivers with known heights (known_heights.hpp; import_lines' take_file_heights).
+// `straight` is for comparison with the paper: its rivers run uphill. Graded heights need drainage
+// areas.
+// Example:
+//     double const cell_m2 = grid.cell_m * grid.cell_m;
+//     Graded const graded = set_heights_graded(network, us_area_m2, ds_area_m2,
+//                                              {.theta = 0.45, .least_area_m2 = cell_m2});
+//     ElevatedNetwork const& rivers = graded.network; // outlets are at 0
+// More: docs/rivers.md, "Heights of rivers".
+
 namespace thalweg::network {
 
 enum class HeightMode : std::uint8_t {

@@ -11,6 +11,8 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/geometry/nearby.hpp>
 
+// Described in docs/algorithms/river_directions.md.
+
 namespace thalweg::network {
 namespace {
 

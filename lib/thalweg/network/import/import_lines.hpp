@@ -12,6 +12,29 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 
+// Idea: A river file is a drawing: ends miss each other by centimetres, lines cross where no vertex
+// is, some are drawn upstream, channels fork and meet again. The import makes a forest of it in
+// steps, each of which reports what it did. Ends are snapped, duplicates dropped, lines cut at
+// their exact crossings, gaps of a cell or so closed and rivers led through lakes, so that pieces
+// meet at nodes only. Each piece gets a direction by the most trusted evidence that the file has,
+// else by angles at confluences, the border, the drawing and a DEM together. At each divergence one
+// branch stays and the others become secondary. Then every node has one way out, and pieces that
+// follow one another are joined to arcs.
+// Source: ours. Directions: docs/algorithms/river_directions.md; ends that nearly meet:
+// docs/decisions/0035-ends-that-nearly-meet.md; attributes that count: docs/river_files.md.
+// Cost: O(n log n) for n vertices where lines seldom cross (docs/performance.md: 0.5 us an arc for
+// the crossings of 1000 arcs). Directions cost O(r log r) for a tree of r reaches; a part full of
+// loops costs one search for each bridge that leaves it. One thread, but for the search for
+// duplicates.
+// Not for: networks that another program has checked, with ids, nodes and links (from_file.hpp
+// keeps them); clipping, artificial channels (prepare_lines.hpp) and missing heights
+// (river_heights.hpp), which come before. A group of lines gets one outlet: a delta is oriented to
+// one of its mouths.
+// Example:
+//     Imported const imported = import_lines(lines, {.cell_m = grid.cell_m, .dem = &dem});
+//     run.report(imported.directions.doubts); // groups whose direction may be wrong
+//     StreamNetwork const& rivers = imported.network;
+
 namespace thalweg::network {
 
 /// How the flow direction of a component, and so its outlet, is found.

@@ -12,6 +12,8 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/import/internal/import_lines.hpp>
 
+// Described in docs/algorithms/river_directions.md.
+
 namespace thalweg::network::import_steps {
 
 std::size_t other_end(Piece const& piece, std::size_t node) {

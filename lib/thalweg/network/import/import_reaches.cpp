@@ -11,6 +11,8 @@
 
 #include <thalweg/core/numbers/elementary.hpp>
 
+// Described in docs/algorithms/river_directions.md.
+
 namespace thalweg::network::import_steps {
 namespace {
 

@@ -10,6 +10,22 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 
+// Idea: Coastlines of map data have gaps and may be drawn either way, but rivers know where land
+// is. Near a coastline the side of the nearest segment decides; the side on which more river cells
+// lie is the land. All other cells take what the nearest decided cell is (a distance transform), so
+// that a gap is closed by a line midway between sea and rivers. Without coastlines, a fan of cells
+// beyond each outlet inside the grid is sea, in the direction of its river, and the rest follows in
+// the same way: the coast runs from mouth to mouth.
+// Source: ours. The nearest cells come from core/cells.hpp, nearest_cells (Meijster et al. 2000).
+// Cost: O(cells), besides O(length of coastlines) with a constant of some hundred cells a segment.
+// The distance transform runs on all cores.
+// Not for: a mask that exists (surface.mask of a recipe), lakes (network/channels/lakes.hpp), or
+// seas without a river or coastline near: then nothing is decided, and the mask is empty.
+// Example:
+//     LandAndSea const divided = land_and_sea(coastlines, lines, grid);
+//     Mask const land = land_along_rivers(divided.land, network); // no river drains sideways
+// More: docs/river_files.md, "Coastlines and the sea".
+
 namespace thalweg::network {
 
 /// A grid divided into land and sea.

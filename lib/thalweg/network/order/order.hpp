@@ -7,6 +7,22 @@
 
 #include <thalweg/core/stream_network.hpp>
 
+// Idea: One walk from the sources down and one from the outlets up give all orders. Strahler's
+// order rises by one where the two highest of the arcs that meet are equal, so that it grows with
+// the logarithm of size; Shreve's counts sources; Hack's counts confluences at which one leaves a
+// larger river, from the outlet up, and needs a main stem: the longest flow path, or what
+// main_stems.hpp chose. Streams are chains of arcs of one Strahler order; counting which order each
+// flows into gives Tokunaga's matrix.
+// Source: Strahler 1957; Shreve 1966; Hack 1957; side branches: Tokunaga 1978, Peckham 1995.
+// Cost: O(arcs + nodes) time and memory. One thread.
+// Not for: networks with divergences: import_lines or divide() (import/from_file.hpp) makes a
+// forest first. Orders depend on the scale of the network: compare them at one support area.
+// Example:
+//     NetworkOrders const orders = order(network);
+//     int const of_the_outlet = orders.node_strahler[network.outlets().front()];
+//     StreamCounts const counts = count_streams(network); // counts.side[0] is T_1
+// More: measure/laws/network_laws.hpp fits laws to these numbers.
+
 namespace thalweg::network {
 
 /// Computes Strahler, Shreve, Hack and topological orders, basins and distances to the outlet.

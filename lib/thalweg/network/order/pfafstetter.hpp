@@ -6,6 +6,19 @@
 #include <string>
 #include <vector>
 
+// Idea: A code that tells position without a map. The main stem of a basin has four largest
+// tributaries: these get 2, 4, 6, 8 from the mouth up, the reaches between them 1, 3, 5, 7, 9. Each
+// part is divided likewise, and its digit is appended. So codes that agree in their first digits
+// lie in one basin, and from the first digit that differs one reads which of two links lies
+// downstream of the other.
+// Source: Verdin and Verdin 1999.
+// Cost: O(n d) for n links and d digits, at most `levels`. One thread.
+// Not for: orders of size (order.hpp), or codes that stay when a tributary is added: they are
+// relative to the network and its areas.
+// Example:
+//     std::vector<std::string> const codes = pfafstetter(down, area_m2, {.levels = 6});
+// More: docs/measures.md, "Pfafstetter codes".
+
 namespace thalweg::network {
 
 /// Strahler and Shreve orders by link.

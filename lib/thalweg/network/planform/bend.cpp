@@ -9,6 +9,8 @@
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/network/planform/internal/meander.hpp>
 
+// Described in docs/equilibrium.md.
+
 namespace thalweg::network {
 namespace {
 

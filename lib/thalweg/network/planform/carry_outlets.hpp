@@ -9,6 +9,24 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/stream_network.hpp>
 
+// Idea: A river that ends inside the grid leaves its water nowhere to go. Each such outlet is led
+// on to the border, or the sea, by the cheapest way over the cells (A*). Entering a cell costs more
+// the nearer rivers are, as if they repelled: a free way runs midway between others, and land
+// beside it drains to one of them without doubt. A way never crosses a river or a diagonal step; it
+// may end in a vertex of a river of another basin, at a fixed cost. Outlets nearest to an end go
+// first, since their short ways leave most room.
+// Source: A* of Hart, Nilsson and Raphael 1968; each step costs at least 1 and comes at most one
+// cell nearer. Costs are ours.
+// Cost: O(v log v) for the v cells that a search visits, outlet by outlet, besides some bytes a
+// cell and the index of segments. One thread: a way avoids those before it.
+// Not for: endorheic basins, which shall keep their outlet (leave it inside), nor gaps within a
+// river (import_lines joins ends that nearly meet). A way knows no heights and may cross a real
+// divide.
+// Example:
+//     Carried const carried = carry_outlets(network, grid, {.join_cells = 40.0});
+//     run.report(carried.notes); // carried_outlet, joined_outlet, closed_basin
+//     StreamNetwork const& rivers = carried.network;
+
 namespace thalweg::network {
 
 /// Options of carry_outlets().

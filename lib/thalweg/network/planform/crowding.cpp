@@ -8,6 +8,8 @@
 
 #include <thalweg/geometry/segment_grid.hpp>
 
+// Described in docs/equilibrium.md.
+
 namespace thalweg::network {
 namespace {
 

@@ -14,6 +14,8 @@
 #include <thalweg/network/planform/internal/crowding.hpp>
 #include <thalweg/network/planform/internal/meander.hpp>
 
+// Described in docs/equilibrium.md.
+
 namespace thalweg::network {
 namespace {
 

@@ -8,6 +8,21 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 
+// Idea: Some programs (TauDEM) allow two rivers at a confluence. Where more meet, one tributary
+// after another is moved to a node of its own on the river: it leaves its line some metres before
+// the confluence, runs beside the river and joins it a little farther down. Neighbours with the
+// sharpest angle go first, for there a short link does it. Each try is tested exactly against all
+// lines near by; while it would meet one, the distance is halved.
+// Source: ours.
+// Cost: linear in crowded confluences with few lines near them; the lines near are found by a
+// segment tree, O(n log n) for n segments. One thread.
+// Not for: networks that go to programs without this limit. Positions change by up to distance_m
+// for each tributary that was moved.
+// Example:
+//     Split const split = split_confluences(elevated, {.max_upstream = 2});
+//     std::size_t const added = split.pieces.size(); // arcs and nodes
+// More: docs/interchange.md.
+
 namespace thalweg::network {
 
 /// Options of split_confluences().

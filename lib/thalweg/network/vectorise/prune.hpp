@@ -8,6 +8,22 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 
+// Idea: A skeleton has burrs: short arcs without meaning. Cutting all arcs shorter than L would
+// disconnect the network, because arcs beside the trunk are as short as burrs. So only leaves are
+// cut, the shortest first, and where one confluence loses its second arc the other two become one,
+// whose length is measured anew. An arc's persistence is the greatest length removed until it goes,
+// itself included: arcs with persistence >= L are what pruning by L keeps. So networks for all L
+// are nested, and one run serves a slider.
+// Source: Cao, Long and Lü 2009, equation 2, which speaks of every arc; leaves to a fixpoint are
+// ours: docs/decisions/0003-pruning.md.
+// Cost: O(a log a) for a arcs (a heap of leaves), memory O(a). Lengths are integers, so that sums
+// do not depend on order. One thread.
+// Not for: thinning a network evenly (select arcs by order or area instead): interior arcs shorter
+// than L stay. Rivers of a file: short tributaries are real there.
+// Example:
+//     Pruned const pruned = prune(network, {.length_m = 20.0 * grid.cell_m, .cell_m = grid.cell_m});
+//     double const most_cells = pruned.network.arc(0).persistence; // largest L that keeps it
+
 namespace thalweg::network {
 
 /// Options of prune().

@@ -9,6 +9,18 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/stream_network.hpp>
 
+// Idea: Lines become cells as a plotter draws them: between two vertices the one cell a step that
+// is nearest to the line, with heights linear along it. Where arcs share a cell the lowest height
+// counts, which may make the next cell downstream of another arc the higher one. A flood over the
+// steps from cell to cell, the lowest cells first, lowers all cells downstream of such a place.
+// Source: Bresenham 1965 (core/cells.hpp); Cao, Long and Lü 2009, section 3.3.
+// Cost: O(c log c) for c cells of rivers, besides the raster. One thread.
+// Not for: flow directions along rivers, and cells that neighbour only their receiver:
+// channels.hpp.
+// Example:
+//     Rasterised const drawn = rasterise(elevated, grid);
+//     Valley const& rivers = drawn.valley; // NaN where no river runs
+
 namespace thalweg::network {
 
 /// What rasterise() returns.

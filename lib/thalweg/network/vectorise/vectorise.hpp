@@ -7,6 +7,26 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 
+// Idea: A cluster of cells becomes lines in two steps. thin() takes cells off the rim as long as
+// the rest stays connected: a cell goes if its set neighbours form one component and it is not the
+// end of a branch. Cells are taken from two opposite sides in turn, since both at once would erase
+// a line of two cells; 64 cells are decided at a time by logic on words, and only words beside a
+// change are looked at again. trace() then runs Dijkstra from the outlet over the skeleton: the
+// shortest-path tree has no loops, and drains to the outlet. Cells with one cell upstream lie
+// within an arc, all others are nodes.
+// Source: Guo and Hall 1989, algorithm A1 (thinning); Cao, Long and Lü 2009, section 3.2, which
+// leaves the vectorisation open; m-adjacency and the tree are ours.
+// Cost: thinning is O(cells) a pass, with a pass for each layer of cells (docs/performance.md: 4.5
+// ns and 6.8 bytes a cell for 1024 x 1024). Tracing is O(s log s) for s cells of the skeleton. One
+// thread.
+// Not for: the streams of a DEM (flow/extract_streams.hpp), which have directions already; networks
+// of grow_forest, which are lines from the start. A loop is cut where its two ways are equally
+// long.
+// Example:
+//     Mask const skeleton = thin(cluster_mask);
+//     StreamNetwork const rivers = trace(skeleton, {.mouth = grid.centre({120, 80})});
+// More: docs/rivers.md; prune.hpp takes off the burrs that a skeleton has.
+
 namespace thalweg::network {
 
 /// Thins a mask to its skeleton.

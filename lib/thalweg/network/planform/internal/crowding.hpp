@@ -12,6 +12,8 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/network/planform/internal/meander.hpp>
 
+// Described in docs/equilibrium.md.
+
 namespace thalweg::network {
 
 /// How close rivers may come.

@@ -9,6 +9,8 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/stream_network.hpp>
 
+// Described in docs/equilibrium.md.
+
 /// The rivers' points, and the steps that move them.
 namespace thalweg::network {
 
