@@ -10,6 +10,21 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 
+// Idea: Rivers, ridges and points become one raster of cells that a surface has to pass through.
+// Rivers come first and keep their bits, then the highest point of a cell, then its highest ridge.
+// Ridges are roughened by fractal noise: the sum of four octaves of Perlin noise, each half as long
+// and half as high. It is a field in the plane, so that neighbouring ridges resemble each other,
+// times 4 t (1 - t) along the ridge, so that ridges still meet at their ends.
+// Source: Northeast Normal University 2015, section 3.1 and equation 11, begun at the height of the
+// ridge's start; Perlin 1985 by libnoise.
+// Cost: O(cells of the grid + cells of ridges). One thread.
+// Not for: builds without libnoise, where an amplitude above 0 is refused. Noise does not keep
+// ridges above rivers beside them: below_river counts these cells.
+// Example:
+//     DrawnSkeleton const drawn = draw_skeleton(valley, ridge_lines, {});
+//     Skeleton const& heights = drawn.skeleton; // for surface::diffuse
+// More: docs/rivers.md, "Ridges".
+
 namespace thalweg::skeleton {
 
 /// Options of noise_along().

@@ -5,6 +5,20 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 
+// Idea: Midpoint displacement goes from corners to the cells between; this goes the other way. From
+// the finest level up, a parent of the diamond-square scheme without a height takes the mean of its
+// known children, so that heights spread from thin lines to lattice points around them, and a later
+// interpolation has more to hold on to. Children farther than L do not count: few cells are added
+// for L = 1.5.
+// Source: Northeast Normal University 2015, section 3.2; Belhadj and Audibert 2005.
+// Cost: O(cells) for all levels together, at half steps 1, 2, 4, ... up to L. Rows of a level run
+// on all cores.
+// Not for: interpolation of a whole surface (surface/diffusion/diffusion.hpp): most cells stay
+// empty. New cells follow the lattice of the scheme, not the terrain.
+// Example:
+//     Skeleton const more = midpoint_inverse(skeleton_heights, {.longest_cells = 3.0});
+// More: docs/rivers.md, "Ridges".
+
 namespace thalweg::skeleton {
 
 /// Options of midpoint_inverse().

@@ -8,6 +8,25 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/solver/spectral/circulant.hpp>
 
+// Idea: Random terrain with given mean, deviation and correlation lengths. grf: a stationary
+// Gaussian field whose covariance is a stretched exponential, so that lengths (1/e) and fractal
+// dimension are free; drawn exactly by Fourier transform on a torus
+// (solver/spectral/circulant.hpp). separable_ar: each height from its western, northern and
+// north-western neighbours, which gives an exactly exponential, separable correlation in one pass,
+// of dimension 2.5. markov3: the published recursion from two neighbours, whose correlation is
+// shorter than asked and differs between the diagonals.
+// Source: Zhang, Liu and Li, section 2 and equations 1 to 3; Dietrich and Newsam 1997.
+// Cost: grf O(n log n) on a torus of about 16 times the grid (64 bytes a cell of a grid much wider
+// than L); separable_ar and markov3 O(n). Transforms, rows and columns run on all cores, markov3's
+// recursion on one.
+// Not for: one terrain that has to have the numbers: a realisation has them only in expectation
+// (fractal/match_statistics.hpp moves it there). markov3 is for comparison with the paper. No field
+// has valleys.
+// Example:
+//     RandomField const field = grf(grid, {.std = 120.0, .covariance = {20.0, 40.0, 2.4}});
+//     Raster<float> const rough = separable_ar(grid, {.std = 120.0, .lx_cells = 20.0});
+// More: docs/statistics.md.
+
 namespace thalweg::skeleton {
 
 /// The statistics of a random terrain in expectation; a realisation departs from them.

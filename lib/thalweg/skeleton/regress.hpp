@@ -10,6 +10,25 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 
+// Idea: Few points give a smooth surface: least squares over nine products of powers and three
+// exponential terms (a hill at the centre, times 1, a cosine in x, a sine in y). The surface is
+// linear in its twelve coefficients, so a QR decomposition finds them; coordinates are scaled to
+// [-1, 1] to keep it well-conditioned. A given slope is a quadratic condition on the coefficients;
+// least squares under one such condition has a global minimum that a one-dimensional (secular)
+// equation finds.
+// Source: Zhang, Liu and Li, equations 12 and 13; the condition by Golub and von Matt 1991. The
+// eighth term is lost in print and chosen by EighthTerm.
+// Cost: O(m) for m points, besides O(n) for n cells of the result (and as much again for the mean
+// slope). Evaluation runs on all cores.
+// Not for: surfaces through the points (geometry/natural_neighbours.hpp, triangulate.hpp):
+// residuals are as large as the terrain is rough. A target slope that is the terrain's own makes
+// the smooth surface far too steep; let fractal detail bring it. Fewer points than terms are
+// refused; twice as many are better.
+// Example:
+//     Regression const fit = regress(points, grid, {.length_x = 20.0, .length_y = 40.0});
+//     double const missed_m = fit.rms_m;
+// More: docs/statistics.md, "From points".
+
 namespace thalweg::skeleton {
 
 /// The slope that constrains the regression.

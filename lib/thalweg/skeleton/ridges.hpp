@@ -11,6 +11,26 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 
+// Idea: Water parts midway between streams, so ridges are guessed as the places that are equally
+// far from two of them: edges of a Voronoi diagram. `voronoi` takes points along the rivers, a cell
+// apart, and keeps the edges between points of different streams; `segments` takes the rivers'
+// segments, whose edges are exact medial lines: straight pieces and parabolas. A ridge rises above
+// its rivers with the distance, by a gain, and no more beyond a limit. Parts nearer to a river than
+// clear_m are cut out, pieces that touch a river are left out by exact tests, and the rest is
+// joined to the longest lines.
+// Source: Northeast Normal University 2015, section 3.1 and equation 10. Sites a cell apart, where
+// it takes nodes of links, and medial lines are ours (docs/rivers.md, "What the thesis prints and
+// what holds").
+// Cost: a Delaunay triangulation (or segment diagram) of n sites and an exact search for crossings,
+// O(n log n) in practice. One thread.
+// Not for: real divides. Distance alone decides, so a deep valley and a shallow one share the land
+// evenly; terrain in equilibrium (surface/equilibrium/) finds its divides by erosion. Ridges that
+// are known come from a file: ridges_with_heights.
+// Example:
+//     std::vector<std::int64_t> const labels = {1, 1, 2}; // the stream of each arc
+//     RidgeLines const lines = ridges(elevated, labels, grid, {.gain = 0.2, .farthest_m = 800.0});
+// More: docs/rivers.md, "Ridges"; geometry/diagram.hpp.
+
 namespace thalweg::skeleton {
 
 /// Options of ridges().

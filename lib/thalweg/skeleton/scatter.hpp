@@ -9,6 +9,24 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 
+// Idea: Random points that keep a distance look natural, where independent ones cluster. Darts are
+// thrown anywhere and kept where no other point is near; tiles as wide as the distance over root 2
+// hold at most one point each, so that a test looks at 25 tiles. Above a density of 0.62 darts
+// seldom find room: then points are spread from those that exist, each trying 30 places one to two
+// distances away. Heights have the mean and deviation exactly (normalised), then are pulled towards
+// the extremes near these. scatter_between draws places between rivers, where a point rises above
+// its nearest river by a random share of gain times distance.
+// Source: Zhang, Liu and Li, equations 4 and 6 to 11; Bridson 2007; heights between rivers from
+// Northeast Normal University 2015, equation 10.
+// Cost: O(count) with few rejections; a million misses in a row end the darts. scatter_between adds
+// a distance transform, O(cells). One thread, but for that.
+// Not for: densities above 1.15, which no packing reaches and which are refused. Points do not know
+// valleys: use them as a skeleton (surface/, geometry/triangulate.hpp).
+// Example:
+//     Scattered const some = scatter(grid, {.count = 200, .spacing_cells = 4.0, .std_m = 90.0});
+//     FeaturePoints const& points = some.points; // some.missing found no room
+// More: docs/statistics.md, "From points".
+
 namespace thalweg::skeleton {
 
 /// Decrease of an attraction from 1 at its centre: continuous to 0 at the radius; literal, as published, to 1/e with a
