@@ -14,6 +14,8 @@
 #include <thalweg/surface/equilibrium/internal/steps.hpp>
 #include <thalweg/surface/uplift/uplift_pattern.hpp>
 
+// Described in docs/algorithms/equilibrium_levels.md.
+
 namespace thalweg::surface {
 namespace {
 

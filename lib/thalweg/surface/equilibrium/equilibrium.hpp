@@ -12,6 +12,30 @@
 #include <thalweg/flow/direction.hpp>
 #include <thalweg/surface/equilibrium/features.hpp>
 
+// Idea: Landscape evolution to its end. Uplift raises, rivers cut K A^theta S, debris flows cut
+// where few cells drain, creep rounds crests; where the three balance heights no longer change.
+// That state is approached directly, without time steps: for fixed flow directions the balance is
+// linear in heights, so one sweep, receivers first, sets each cell from its receiver's new height
+// in closed form. A round turns cells to their steepest neighbour, accumulates areas, sets the
+// rivers and sweeps; some rounds at each level, from a grid of about forty cells to the finest, let
+// large valleys settle before small ones. Rivers keep their cells and receivers, but for heads that
+// would stand perched. No cell is ever set lower than a step above its receiver, so no depression
+// can form and none is filled. Heights are scaled to the target slope or relief at the end.
+// Source: ours: docs/decisions/0015-equilibrium.md and 0022 to 0026. Parts: creep length Perron et
+// al. 2009; stack order Braun and Willett 2013; flood Barnes et al. 2014; debris flows Stock and
+// Dietrich 2003.
+// Cost: O(n) a round; levels add a third. docs/performance.md: 748 ns and 51 bytes a cell for 2048
+// x 2048, 17 times D8 of the result. All cores, but for the flood and the rivers. Given heights
+// solve twice, with a target slope up to seven times, with known points four times.
+// Not for: rivers with known heights that the terrain shall follow (rebuild.hpp). Rounds are
+// counted, so the steady state is approached, not reached. It knows no terraces, fans, landslides
+// or glaciers.
+// Example:
+//     Channels const rivers = drawn_channels; // network::channels(network, grid).channels
+//     EquilibriumTerrain const terrain = equilibrium(rivers, {}, {.mean_slope_deg = 22.0});
+//     Raster<float> const& dem_m = terrain.dem;
+// More: docs/algorithms/equilibrium_levels.md; docs/equilibrium.md.
+
 namespace thalweg::surface {
 
 /// Boundary conditions of equilibrium terrain.

@@ -9,6 +9,8 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/surface/equilibrium/internal/steps.hpp>
 
+// Described in docs/algorithms/equilibrium_levels.md.
+
 namespace thalweg::surface {
 namespace {
 

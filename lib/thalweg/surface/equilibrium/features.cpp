@@ -10,6 +10,8 @@
 #include <thalweg/surface/equilibrium/features.hpp>
 #include <thalweg/surface/equilibrium/internal/steps.hpp>
 
+// Described in docs/rebuild.md.
+
 namespace thalweg::surface {
 namespace {
 

@@ -8,6 +8,8 @@
 #include <thalweg/core/run/lanes.hpp>
 #include <thalweg/surface/equilibrium/internal/steps.hpp>
 
+// Described in docs/algorithms/equilibrium_levels.md.
+
 namespace thalweg::surface {
 namespace {
 

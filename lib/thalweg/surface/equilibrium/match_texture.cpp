@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+// Described in docs/rebuild.md.
+
 namespace thalweg::surface {
 
 TextureMatch match_texture(TextureMatch const& first, double wanted,

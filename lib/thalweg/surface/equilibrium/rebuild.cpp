@@ -8,6 +8,8 @@
 #include <thalweg/surface/equilibrium/internal/steps.hpp>
 #include <thalweg/surface/equilibrium/rebuild.hpp>
 
+// Described in docs/rebuild.md.
+
 namespace thalweg::surface {
 namespace {
 

@@ -11,6 +11,26 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 
+// Idea: Rivers with heights tell more than their places: how steep they are tells how steep the
+// land beside is. First the expected terrain is found: the equilibrium's levels with a low
+// concavity and no noise, whose uplift follows the rivers' own steepness, grows along the flow path
+// where a river would stand above the land beside it, and is scaled until the mean slope is the one
+// that the sources suggest. Then the last three levels are solved again with side valleys and
+// noise, held to the smooth terrain: uplift is corrected until blurred heights above rivers agree,
+// and springs keep its divides. Two passes, because valleys cannot be known from rivers, and wrong
+// ones would cost heights and divides.
+// Source: ours: docs/decisions/0032-rebuild.md.
+// Cost: two passes with the rounds of equilibrium.hpp, O(n) each; with a target slope or relief up
+// to six solutions. All cores, but for the floods.
+// Not for: rivers without heights (equilibrium.hpp); rills of a DEM of 1 to 5 m, plateaus, glacial
+// land and plains below 5 degrees, where the slope of rivers says little: give mean_slope_deg there
+// (doubts_of warns). Land beyond the grid is not known: all of it drains to the rivers.
+// Example:
+//     RebuiltTerrain const rebuilt = rebuild(drawn_channels, {}, {.mean_slope_deg = 20.0});
+//     double const spacing_m = rebuilt.survey.spacing_m; // between rivers
+//     Raster<float> const& dem_m = rebuilt.terrain.dem;
+// More: docs/rebuild.md.
+
 namespace thalweg::surface {
 
 /// Options of rebuild().

@@ -3,6 +3,8 @@
 
 #include <thalweg/surface/equilibrium/internal/steps.hpp>
 
+// Described in docs/rebuild.md.
+
 namespace thalweg::surface {
 
 NearestRiver straight_to(TerrainLevel const& level, std::vector<std::uint32_t> const& cells, Run const& run) {

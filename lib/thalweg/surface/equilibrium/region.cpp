@@ -5,6 +5,8 @@
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/surface/equilibrium/internal/steps.hpp>
 
+// Described in docs/algorithms/equilibrium_levels.md.
+
 namespace thalweg::surface {
 namespace {
 

@@ -10,6 +10,22 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 
+// Idea: A DEM with holes becomes one without. Gaps that reach the border are the rim, all others
+// are enclosed: floods from the border tell them apart. An enclosed gap is taken for water and made
+// level at the lowest cell of its shore; the rim is filled, or cut off by the largest rectangle
+// that holds no rim cell: row by row, the number of free cells above each column is a histogram,
+// and a stack finds its largest rectangle. The sea floods cells at or below its level from the
+// border or the rim, so that low land behind dikes stays dry.
+// Source: ours.
+// Cost: O(cells), also for the largest rectangle; `nearest` adds a distance transform, which runs
+// on all cores. The rest on one.
+// Not for: interpolation across gaps (surface/diffusion/diffusion.hpp gives smooth heights), or
+// rivers and lakes with known levels.
+// Example:
+//     ClosedGaps const closed = close_gaps(dem, {.rim = RimGaps::nearest, .sea_m = 0.0});
+//     Raster<float> const& everywhere = closed.dem; // no NaN
+// More: docs/commands.md, "Cells without data".
+
 namespace thalweg::surface {
 
 /// What becomes of cells without data that are connected with the border of a DEM.

@@ -10,6 +10,21 @@
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/triangulate.hpp>
 
+// Idea: A TIN of contours has flat triangles where all three corners lie on one contour: on spurs,
+// in valleys, on summits. Midpoints of the edges across such areas lie near the medial line, where
+// the ridge or valley runs. Each gets a height from the contours around it: a thin-plate spline
+// through the nearest vertices of up to three heights in eight directions, held within one contour
+// interval. With these points the triangulation is no longer flat there.
+// Source: Prasad 2007 (midpoints for the medial line); Duchon 1977 (thin-plate splines).
+// Cost: for each midpoint a dense system of up to 48 samples; linear in the number of flat
+// triangles. All on one thread.
+// Not for: TINs that have no contours; lakes, which are flat. Heights are guesses within an
+// interval.
+// Example:
+//     geometry::Triangulation const mesh = geometry::triangulate({}, contour_lines);
+//     std::vector<Vec3> const points = medial_points(mesh); // triangulate again with these
+// More: docs/commands.md, "Contours and lines".
+
 namespace thalweg::surface {
 
 /// Finds the share of a TIN's area in level triangles, whose corners are at one height.

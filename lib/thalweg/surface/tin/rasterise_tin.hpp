@@ -8,6 +8,22 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/tin.hpp>
 
+// Idea: Each triangle is a plane, and each cell centre belongs to one triangle. Triangles are drawn
+// as scan lines: a row enters through one side and leaves through another, and heights between grow
+// by a constant step. A crossing that rounding could put on the other side of a centre is decided
+// by an exact predicate, and centres on a common edge belong to one side by rule, so that no cell
+// is left out or drawn twice. Outside, a tree of boxes over the outer edges finds the nearest point
+// of the TIN.
+// Source: ours; exact predicates after Shewchuk 1997 (geometry/triangles.hpp).
+// Cost: O(triangles + cells). docs/performance.md: 22.5 ns and 19 bytes a cell for 4096 x 4096,
+// 0.24 of the time of the triangulation. Bands of 64 rows run on all cores.
+// Not for: surfaces without creases (geometry/natural_neighbours.hpp); meshes with overhangs:
+// triangles must be counterclockwise in plan.
+// Example:
+//     using Outside = RasteriseTinParams::Outside;
+//     Raster<float> const heights = rasterise_tin(tin, grid, {Outside::nearest});
+// More: docs/commands.md, "TINs".
+
 namespace thalweg::surface {
 
 /// Options of rasterise_tin().

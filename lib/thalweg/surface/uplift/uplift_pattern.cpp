@@ -10,6 +10,8 @@
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/vec.hpp>
 
+// Described in docs/equilibrium.md.
+
 namespace thalweg::surface {
 
 namespace {

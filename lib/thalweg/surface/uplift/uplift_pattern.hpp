@@ -7,6 +7,19 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 
+// Idea: Mountains differ over tens of kilometres because uplift does. Four patterns, as shares of
+// the range from the least to the greatest uplift: a plane across the strike (tilt), random domes
+// on a jittered lattice, blocks between faults that each tilt one way, and cosine folds. Faults and
+// folds bend by smooth noise along the strike. The share becomes a factor of uplift from 1 /
+// sqrt(contrast) to sqrt(contrast).
+// Source: ours (docs/equilibrium.md, surface.uplift_pattern).
+// Cost: O(cells), each cell alone. Rows run on all cores.
+// Not for: tectonics: nothing moves sideways, faults do not slip. Measured uplift is a raster of
+// its own (EquilibriumFields::uplift).
+// Example:
+//     EquilibriumFields fields;
+//     fields.uplift = uplift_pattern(grid, {.pattern = UpliftPattern::blocks, .contrast = 3.0});
+
 namespace thalweg::surface {
 
 /// How uplift varies over tens of kilometres.

@@ -17,6 +17,8 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 
+// Described in docs/algorithms/equilibrium_levels.md.
+
 namespace thalweg::surface {
 
 /// factor area ^ exponent from a table: exact for whole numbers below 512, above that for areas rounded down to nine

@@ -13,6 +13,8 @@
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 #include <thalweg/surface/equilibrium/internal/level.hpp>
 
+// Described in docs/algorithms/equilibrium_levels.md.
+
 /// The steps of equilibrium(), by source file.
 namespace thalweg::surface {
 
