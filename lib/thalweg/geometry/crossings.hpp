@@ -9,6 +9,24 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 
+// Idea: Two questions in sequence: which segments may meet, and where do they. Pairs whose boxes
+// overlap come from a grid of cells at least twice as wide as a mean box, or from streamed segment
+// trees where boxes are too uneven for one grid. Whether a pair meets follows from the signs of
+// determinants, which are exact (floating point where it suffices). Only where two segments cross
+// inside both does rational arithmetic compute the point, which is rounded once: equal points then
+// have equal bits, and can be keys.
+// Source: CGAL; Zomorodian and Edelsbrunner 2000 for the segment trees.
+// Cost: O(n + k) for n segments of similar length and k pairs of boxes; trees add logarithms.
+// docs/performance.md: 0.5 us an arc for 1000 arcs, 0.4 % of the time of all pairs. One thread.
+// Not for: nearness (segments_near in nearby.hpp, SegmentGrid): lines that miss each other by a
+// rounding do not meet. Splitting at the points moves lines by an ulp, which may make new
+// crossings: triangulate.hpp repeats.
+// Example:
+//     std::vector<Vec2> const one = {{0.0, 0.0}, {2.0, 2.0}};
+//     std::vector<Vec2> const other = {{0.0, 2.0}, {2.0, 0.0}};
+//     std::vector<Crossing> const all = crossings({one, other});
+//     Vec2 const at = all.front().at; // (1, 1), the same in both entries
+
 namespace thalweg::geometry {
 
 /// A point where polylines meet, or one touches itself.

@@ -10,6 +10,25 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 
+// Idea: The Voronoi diagram divides the plane by the nearest site; its edges are equally far from
+// two sites. Sites are the vertices of lines, or whole segments: then edges are the exact medial
+// lines, straight where two lines or two points face each other, parabolas between a point and a
+// line. Only edges between different labels are kept: those are divides between rivers. The diagram
+// is the dual of a (segment) Delaunay triangulation, whose combinatorial structure comes from exact
+// predicates; positions of the vertices of medial lines are refined by Newton steps until they are
+// equally far from their three sites. Faces are put in order by their sites, since CGAL orders them
+// by memory address.
+// Source: Voronoi 1908; Karavelas 2004 (segment Voronoi diagram); CGAL.
+// Cost: about O(n log n) for n sites, which are inserted along a space-filling curve. One thread.
+// Not for: lines that cross away from their vertices: medial_lines refuses them, voronoi takes them
+// as points. Points along a line approximate its medial line only as closely as they are spaced.
+// Example:
+//     std::vector<LabelledLine> const rivers = {{{{0.0, 0.0}, {90.0, 400.0}}, 1},
+//                                               {{{300.0, 0.0}, {200.0, 400.0}}, 2}};
+//     Bounds const box{.west = 0.0, .south = 0.0, .east = 400.0, .north = 500.0};
+//     Diagram const divides = medial_lines(rivers, box, {.tolerance_m = 1.0});
+// More: skeleton/ridges.hpp gives these lines heights.
+
 namespace thalweg::geometry {
 
 /// A polyline with a label; lines of one label belong together.

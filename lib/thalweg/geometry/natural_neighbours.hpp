@@ -9,6 +9,21 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 
+// Idea: If a cell centre were added to the Voronoi diagram of the points, its region would be cut
+// from those of its neighbours. The areas that it takes are the weights of their heights. Weights
+// change smoothly with the place, reach only true neighbours, and need no radius or power. The
+// surface passes through the points and is exact for planes.
+// Source: Sibson 1981; CGAL.
+// Cost: O(n log n) for n points and some operations for each neighbour of each cell. Rows run on
+// all cores; each starts its walk through the triangles at the same face, so that bytes do not
+// depend on threads.
+// Not for: extrapolation: outside the convex hull there is no data, or the nearest point's height.
+// Peaks are sharp at points, and no height exceeds its neighbours'. Breaklines: triangulate.hpp.
+// Millions of cells take long: rasterise_tin (surface/tin/) is linear interpolation.
+// Example:
+//     std::vector<Vec3> const points = {{5.0, 5.0, 10.0}, {95.0, 5.0, 20.0}, {50.0, 90.0, 40.0}};
+//     Raster<float> const z = natural_neighbours(points, grid);
+
 namespace thalweg::geometry {
 
 /// Options of natural_neighbours().

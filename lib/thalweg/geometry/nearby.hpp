@@ -10,6 +10,20 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 
+// Idea: Points are sorted into square buckets, stored one after another. A query looks at rings of
+// buckets around its own and stops as soon as the next ring lies farther than the best point.
+// segments_near compares boxes around points with boxes of segments by streamed segment trees, then
+// measures.
+// Source: ours; CGAL's box intersection (segments_near).
+// Cost: O(n) to build; a query O(1) where points lie as densely as buckets are wide, more where
+// they cluster. segments_near is O(n + k) for k pairs, but for logarithms. Queries change nothing
+// and may run on many threads.
+// Not for: points of very uneven density (a tree would do better); distances between segments
+// (segment_grid.hpp).
+// Example:
+//     PointGrid const index(places, 25.0); // about the distance between places
+//     std::size_t const nearest = index.nearest({120.0, 80.0});
+
 namespace thalweg::geometry {
 
 /// A bucket grid of points for nearest-neighbour queries.

@@ -9,6 +9,20 @@
 #include <thalweg/core/tin.hpp>
 #include <thalweg/core/vec.hpp>
 
+// Idea: What triangles need to be right. side_of_line is the sign of a determinant that floating
+// point may get wrong: products are computed with their rounding errors, and what that leaves open
+// is decided exactly. put_in_order follows a Morton curve, which interleaves the bits of x and y,
+// so that neighbours in the plane are neighbours in memory. half_cotangents are the weights of the
+// finite-element Laplacian: on a grid of halved squares they are the five-point stencil, so that
+// meshes and rasters are blended by one equation.
+// Source: Shewchuk 1997; Pinkall and Polthier 1993; Northeast Normal University 2015, equation 16;
+// CGAL for what filters leave open.
+// Cost: constant a call; ordering O(n) (radix sort); cotangents O(triangles). One thread.
+// Not for: a maximum principle on meshes with obtuse angles: cotangents become negative there.
+// Example:
+//     int const side = side_of_line({0.0, 0.0}, {1.0, 0.0}, {0.5, 1e-9}); // 1: left
+//     std::vector<std::array<double, 3>> const weights = half_cotangents(tin);
+
 namespace thalweg::geometry {
 
 /// Finds the side of the line from a to b on which p lies.

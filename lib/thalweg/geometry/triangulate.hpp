@@ -9,6 +9,21 @@
 #include <thalweg/core/tin.hpp>
 #include <thalweg/core/vec.hpp>
 
+// Idea: Of all triangulations of points Delaunay's has the largest least angle: no point lies in
+// the circumcircle of a triangle. Breaklines (rivers, ridges) must be edges, so they constrain it,
+// and the rest stays as close to Delaunay as they allow. Lines are first cut at their exact
+// crossings; rounding a crossing bends its lines by less than an ulp, now and then across another
+// line, so that cutting repeats until nothing crosses. Ties (four points on a circle) are broken by
+// the points, not by the order in which they came.
+// Source: CGAL: exact predicates, spatial sorting, symbolic perturbation.
+// Cost: about O(n log n) for n vertices, besides the search for crossings. One thread.
+// Not for: a DEM, whose cells would all become vertices (tin_of_dem.hpp picks few). Long thin
+// triangles stay where points are far from breaklines; no points are added but at crossings.
+// Example:
+//     std::vector<Vec3> const river = {{10.0, 10.0, 1.0}, {80.0, 80.0, 0.0}};
+//     Triangulation const mesh = triangulate(points, {river});
+//     Tin const& tin = mesh.tin; // surface/tin/rasterise_tin.hpp draws it
+
 namespace thalweg::geometry {
 
 /// A triangulation and the positions of its input in it.
