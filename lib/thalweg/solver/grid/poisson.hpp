@@ -8,6 +8,30 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 
+// Idea: A free cell times its number of neighbours less their sum equals the source: one sparse,
+// symmetric equation a cell. Conjugate gradients solve it, and need as many iterations as the grid
+// is wide unless something corrects long waves. That is one multigrid cycle: 2 x 2 cells become
+// one, down to a single cell; each level sweeps red, then black cells, adds the correction of the
+// coarser level, and sweeps back. Coarse corrections are constant over 2 x 2 cells and would be too
+// steep, so edges between coarse cells are weakened (resistors in series from middle to middle),
+// and the first two coarser levels make two cycles. The cycle works in float, the values in double.
+// It stops where both the residual and the estimated error are small. relax_explicit is plain
+// diffusion by small steps.
+// Source: Hestenes and Stiefel 1952; Braess 1995 (aggregation); edges and second cycles are ours:
+// docs/decisions/0011-solver.md. Northeast Normal University 2015, equations 12, 13 and 16.
+// Cost: O(n) for each of 8 or 9 iterations to 1e-6 on a grid of any size. docs/performance.md: 145
+// ns and 59 bytes a cell for 2048 x 2048, 0.05 of the time of a sparse Cholesky factor. All cores;
+// the same bytes for any number.
+// Not for: varying conductivity or meshes (SparseFactor in linear/linear.hpp); parts without a
+// fixed cell, which have no unique answer and are refused (unreached finds them). Mazes of one-cell
+// gaps take more iterations.
+// Example:
+//     GridProblem problem{Raster<std::uint8_t>(grid, free_cell), Raster<double>(grid), {}};
+//     problem.kind[Cell{0, 0}] = fixed_cell;
+//     problem.value[Cell{0, 0}] = 120.0;
+//     GridSolution const heights = solve_poisson(std::move(problem), {.tolerance = 1e-8});
+// More: docs/rivers.md, "Diffusion" and "On a graphics card".
+
 namespace thalweg::solver {
 
 /// The role of a cell in a grid problem.

@@ -9,6 +9,25 @@
 
 #include <thalweg/core/run/run.hpp>
 
+// Idea: Small dense problems and large sparse ones. least_squares is QR with column pivoting, which
+// also tells the rank; where columns depend on each other a tiny ridge picks a short answer.
+// least_squares_on_sphere has a quadratic condition: the unconstrained unknowns are eliminated, and
+// the rest becomes a search for one number lambda at which sum (h_i / (w_i + lambda))^2 = tau^2,
+// which has one solution beyond the largest pole, the global minimum. factor is a Cholesky factor
+// whose sums have one order on any thread and machine; SparseFactor is one of a sparse matrix, made
+// once for many right-hand sides.
+// Source: Golub and von Matt 1991 (quadratic condition); Eigen for QR, eigenvalues and sparse LDL'.
+// Cost: QR O(m n^2); factor O(n^3), its rows on all cores; docs/performance.md: on 2048 x 2048 the
+// grid's own solver takes 0.05 of SimplicialLDLT.
+// Not for: Poisson's equation on rasters (grid/poisson.hpp); matrices that are not positive
+// definite. More than some thousand unknowns are too many for dense factors (n^2 doubles).
+// Example:
+//     Matrix a(3, 2);
+//     a.at(0, 0) = a.at(1, 0) = a.at(2, 0) = 1.0; // a constant, and a slope
+//     a.at(1, 1) = 1.0;
+//     a.at(2, 1) = 2.0;
+//     Solution const line = least_squares(a, {1.0, 2.9, 5.1});
+
 namespace thalweg::solver {
 
 /// A dense matrix in column order.

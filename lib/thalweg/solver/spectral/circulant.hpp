@@ -10,6 +10,27 @@
 #include <thalweg/core/run/memory.hpp>
 #include <thalweg/core/run/run.hpp>
 
+// Idea: The covariance matrix of a stationary field on a torus is circulant, so that a Fourier
+// transform diagonalises it: its eigenvalues are the transform of the covariance. A field with
+// exactly this covariance is white noise times the roots of the eigenvalues, transformed back. A
+// grid is a part of a large enough torus; where the covariance does not fit, some eigenvalues come
+// out negative, are set to 0, and their share is reported. The same transforms multiply a field by
+// the covariance matrix. A fractional Brownian surface is not stationary, but is a stationary field
+// with compact support plus a random plane, which Stein chose so that no eigenvalue is negative.
+// Source: Dietrich and Newsam 1997; Wood and Chan 1994; Stein 2002, Kroese and Botev 2015
+// (fractional surfaces; our torus is shorter).
+// Cost: O(t log t) for t cells of the torus, 2 bytes each for eigenvalues (a quarter is kept);
+// drawing takes 16 bytes for each row of the grid times half the torus' width. Rows and bundles of
+// columns run on all cores.
+// Not for: fields that vary from place to place, or that pass through points (fractal/ conditions
+// by kriging). Smooth fields with long correlation need a torus several times as wide.
+// Example:
+//     StableCovariance const covariance{.lx_cells = 20.0, .ly_cells = 40.0, .dimension = 2.4};
+//     std::int64_t const side = good_size(4 * std::max(grid.width, grid.height));
+//     Circulant const torus = circulant(covariance, side, side);
+//     Raster<double> const field = sample(torus, grid, 7, 1); // of mean 0 and deviation 1
+// More: docs/statistics.md.
+
 namespace thalweg::solver {
 
 /// The stable covariance exp(-((dx/lx)^2 + (dy/ly)^2)^(3 - dimension)): 1/e at the distances lx along rows and ly along

@@ -9,6 +9,19 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 
+// Idea: The discrete Fourier transform of a length with small factors splits into transforms of its
+// parts (radix 2, 3, 4, 5). In two dimensions all rows are transformed, then all columns, some of
+// which are gathered at a time so that cache lines are used whole. kissfft does the butterflies;
+// its roots of unity are ours, since libm's differ in their last bits between machines.
+// Source: kissfft (Borgerding 2003), as packaged with Eigen.
+// Cost: O(n log n) for lengths of factors 2, 3 and 5 (good_size), O(n p) for a large prime factor
+// p. Rows and bundles of columns run on all cores.
+// Not for: real fields where halving counts (circulant.hpp packs two rows into one); results are
+// not scaled: forward and inverse multiply by n.
+// Example:
+//     Raster<Complex> const spectrum = fft(Raster<Complex>(grid), Direction::forward);
+//     std::int64_t const length = good_size(1000); // 1000
+
 namespace thalweg::solver {
 
 using Complex = std::complex<double>;

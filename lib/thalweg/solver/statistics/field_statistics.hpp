@@ -13,6 +13,24 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/solver/spectral/circulant.hpp>
 
+// Idea: The numbers that describe terrain in Zhang, Liu and Li, and how each answers to every
+// height. Correlation at all lags along an axis comes from the squared spectrum of each row (Wiener
+// and Khinchin), padded so that nothing wraps round; the length is where it falls to 1/e, the
+// dimension the slope of log differences over log lags. The derivative of each by each height is a
+// raster, by the chain rule through lags and differences, which is what match_statistics needs to
+// move terrain. with_slope gives a covariance a share of short waves until terrain drawn from it is
+// as steep as asked.
+// Source: Zhang, Liu and Li, section 2, section 3.4 and table 4; derivatives and fine forms are
+// ours: docs/decisions/0008-projection.md.
+// Cost: O(n log n) for n cells, with memory for some rows; derivatives likewise. All cores; sums in
+// one order.
+// Not for: slopes in degrees (measure/relief/): slope_rad takes cells as 1 wide, as the paper does.
+// A length beyond half the grid is extrapolated (`extrapolated`).
+// Example:
+//     FieldStatistics const is = field_statistics(dem);
+//     Raster<double> const by_height = derivative(dem, is, Quantity::ln_lx);
+// More: docs/statistics.md, "What the numbers mean".
+
 namespace thalweg::solver {
 
 /// Differentiates heights along an axis: central, one-sided beside a hole (NaN), 0 between two holes.
