@@ -13,6 +13,22 @@
 #include <thalweg/core/vec.hpp>
 #include <thalweg/flow/route.hpp>
 
+// Idea: Each cell belongs to the first river cell that its water meets, and from there water keeps
+// to the river. So areas never fall downstream, also where the DEM's steepest descent leaves the
+// river for a bank. first_met follows each path until a cell that is known and writes the answer
+// back along it: every cell is visited a fixed number of times. Without a DEM the nearest network
+// cell takes the place of the flow path, by an exact distance transform with ties to the lower
+// number.
+// Source: ours: docs/decisions/0007-areas.md.
+// Cost: O(n + cells of rivers), besides 4 to 8 bytes a cell. One thread.
+// Not for: the DEM's own areas (FlowField::area_cells); catchments of points
+// (given_directions.hpp). areas_nearest knows no divides: it halves the distance between rivers.
+// Example:
+//     Catchments const parts = catchments(reaches_of(network), flow_field);
+//     std::int64_t const of_first_cells = parts.upstream[0];
+//     ContributingAreas const areas = areas_d8(network, flow_field);
+// More: docs/measures.md.
+
 namespace thalweg::flow {
 
 using ReachId = std::int64_t; ///< number of a reach; -1: none

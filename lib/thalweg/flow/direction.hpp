@@ -9,6 +9,20 @@
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/raster.hpp>
 
+// Idea: D8: all water of a cell goes to the neighbour to which it falls most steeply; a diagonal
+// fall counts over a way of root 2. One direction a cell makes trees: areas, paths and catchments
+// are then walks without choice. Ties go to the first direction clockwise from the east, so that
+// every program run gives the same.
+// Source: O'Callaghan and Mark 1984.
+// Cost: eight comparisons a cell.
+// Not for: divergent hillslopes, where D8 makes parallel lines along the eight directions:
+// route_dinf (route.hpp) shares water. Pits and flats have no descent (Direction::leaves): route()
+// leads water through them.
+// Example:
+//     Descent const down = steepest_descent(dem, {40, 30});
+//     double const tangent = down.slope / grid.cell_m;
+// More: docs/measures.md; docs/relief_measures.md, "Conventions beside other programs".
+
 namespace thalweg::flow {
 
 /// The D8 flow direction of a cell: a neighbour, numbered as in d8_steps, or none.

@@ -11,6 +11,19 @@
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/flow/catchments.hpp>
 
+// Idea: Streams begin where enough water has gathered: cells whose area reaches a support are
+// channels, and D8 receivers join them to a forest. Nodes are cells where streams begin, meet or
+// leave, arcs the cells between. support_for_length turns the question round: lengths are counted
+// by octaves of area, and only the octave with the answer is sorted.
+// Source: O'Callaghan and Mark 1984.
+// Cost: O(n) for n cells, and O(s log s) for s cells of streams. One thread.
+// Not for: channel heads, which a constant area misses: they depend on slope and ground. Arcs
+// follow the grid and run straight in flats. A stream across a lake is one of many ways.
+// Example:
+//     ExtractedStreams const streams = extract_streams(flow_field, dem, {.support_km2 = 0.5});
+//     StreamNetwork const& rivers = streams.network.planform;
+// More: docs/measures.md.
+
 namespace thalweg::flow {
 
 /// A stream network extracted from a DEM, with its areas.

@@ -10,6 +10,20 @@
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/flow/route.hpp>
 
+// Idea: What can be said of a cell by following its water. Quantities that come from below (length
+// to the outlet, height above the first river cell: HAND) are found by walking down until a known
+// cell and filling in on the way back; those from above (orders, lengths) by visiting each cell
+// after all its donors. cut_by_edge marks all that lies below a cell on the border, whose area may
+// reach beyond the data.
+// Source: Rennó et al. 2008 and Nobre et al. 2011 (HAND); Strahler 1957; Shreve 1966.
+// Cost: O(n), each cell a fixed number of times. One thread.
+// Not for: lengths over hillslopes, where D8 paths zigzag between eight directions. HAND of a DEM
+// with pits is below 0 there.
+// Example:
+//     std::vector<RiverCell> const rivers = cells_with_area(flow_field, 500);
+//     Raster<float> const hand_m = heights_above_rivers(dem, rivers, flow_field);
+// More: docs/measures.md.
+
 namespace thalweg::flow {
 
 /// Computes the length of the D8 flow path from each cell to where its water leaves.

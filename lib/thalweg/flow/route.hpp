@@ -9,6 +9,27 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/flow/direction.hpp>
 
+// Idea: Water runs by steepest descent, but DEMs have pits and flats. A priority flood enters from
+// the border, lowest cell first, and raises each cell that it reaches to at least the level it came
+// from: that is its spill level, found in one pass. Cells with a lower neighbour on the filled DEM
+// drain to the steepest, others back along the way of the flood, so that no cycle can form; the DEM
+// itself is not changed. If all cells fall, no flood is made. Areas are summed along flow paths,
+// each cell after all its donors. route_dinf shares a cell's water between two neighbours, by the
+// angle of the steepest of eight facets.
+// Source: O'Callaghan and Mark 1984; Barnes et al. 2014; radix heap: Ahuja et al. 1990; order:
+// Braun and Willett 2013; Tarboton 1997.
+// Cost: O(n) but for the queue, whose entries move at most 32 times. docs/performance.md: 43 ns and
+// 21 bytes a cell for a DEM of 2048 x 2048 that drains, 0.21 of the time of RichDEM. Directions run
+// on all cores; flood and areas on one.
+// Not for: changing a DEM (condition.hpp); the path of water in large flats, which follows the
+// flood. Areas at cells whose catchment the edge cuts are too small (cut_by_edge in paths.hpp).
+// Endorheic basins need `sinks`.
+// Example:
+//     FlowField const drainage = route(dem);
+//     DinfFlow const shared = route_dinf(dem, drainage);
+//     std::int64_t const area_cells = drainage.area_cells[Cell{40, 30}];
+// More: docs/measures.md; docs/relief_measures.md, "Conventions beside other programs".
+
 namespace thalweg::flow {
 
 /// A depression: 8-connected cells below their spill level.
