@@ -8,6 +8,19 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 
+// Idea: Poisson's equation as in paste.hpp, with the terrain's own differences: scaled by a factor
+// inside the region, its edge and some handles held at given heights. The terrain follows the
+// handles as a membrane would, and keeps its relief: what changes is smooth but at handles.
+// Source: Northeast Normal University 2015, section 4.2.
+// Cost: one Poisson solution on the region's bounding box, as paste.hpp. All cores, or OpenCL.
+// Not for: rotation, which is place_patch and paste; single cells as handles, which leave spikes:
+// hold a few cells around each. Water may not run any more: condition the result.
+// Example:
+//     std::vector<Handle> const handles = {{.cell = {40, 30}, .z = 700.0}};
+//     Deformed const gentler = deform(dem, land, handles, {.scale = 0.5}); // land: the region
+//     Raster<float> const& dem_m = gentler.dem;
+// More: docs/rivers.md, "Blending"; docs/commands.md, "Paste and deform".
+
 namespace thalweg::blend {
 
 /// A cell and its new height.

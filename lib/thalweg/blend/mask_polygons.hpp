@@ -7,6 +7,18 @@
 #include <thalweg/core/features.hpp>
 #include <thalweg/core/raster.hpp>
 
+// Idea: A cell belongs to a polygon if a ray from its centre crosses the outline an odd number of
+// times. Row by row the crossings of all edges with the row of centres are sorted, and cells
+// between the first and second, third and fourth, ... lie inside. A crossing is counted by one rule
+// for both polygons at a common edge, so that a centre belongs to exactly one.
+// Source: the even-odd rule of scan conversion.
+// Cost: linear in the rows that each edge crosses and the cells drawn, besides sorting in rows, and
+// O(rows) a polygon. One thread.
+// Not for: the share of a cell that is covered: only centres count, so that polygons thinner than a
+// cell may have none.
+// Example:
+//     Mask const inside = mask_polygons(polygons, grid);
+
 namespace thalweg::blend {
 
 /// Assigns cells to the polygon that contains their centre (even-odd rule); polygons may overlap and leave the grid.

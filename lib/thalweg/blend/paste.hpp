@@ -8,6 +8,27 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 
+// Idea: The eye sees differences, not heights. A patch keeps its differences between neighbours and
+// takes the target's heights at its edge: the terrain whose differences come closest to these is
+// the solution of Poisson's equation. Solved is the shift from the patch, which without a feather
+// is harmonic: a membrane between the differences at the edge carries the patch. So a patch that is
+// the target's own, or higher by a constant, changes nothing. Kept cells, such as rivers, are fixed
+// as the edge is. With a feather the target's differences fade into the patch's over some cells;
+// `mixed` takes whichever is larger.
+// Source: Pérez, Gangnet and Blake 2003; Northeast Normal University 2015, algorithm 1 and
+// equations 14 to 16; on a grid its triangles have the weights of the five-point stencil. What
+// stays and how seams are measured: docs/decisions/0012-blending.md.
+// Cost: one Poisson solution on the patch's bounding box. docs/performance.md: 156 ns and 44 bytes
+// a cell for 1024 x 1024. All cores, or OpenCL.
+// Not for: drainage: valleys of the patch end at its edge, and pits form where they meet kept
+// rivers; condition the result (flow/condition.hpp). Meshes: tin.hpp. A patch far steeper than its
+// surroundings stays so: give a gain.
+// Example:
+//     Patch const patch = place_patch(other_dem, dem.grid(), {.rotate_deg = 20.0, .gain = 0.8});
+//     Pasted const pasted = paste(dem, patch, {.feather_cells = 12.0});
+//     double const seam_m = pasted.seam_rms_m;
+// More: docs/rivers.md, "Blending".
+
 namespace thalweg::blend {
 
 /// A piece of terrain placed on a target's grid.

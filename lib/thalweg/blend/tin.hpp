@@ -10,6 +10,24 @@
 #include <thalweg/core/tin.hpp>
 #include <thalweg/geometry/triangles.hpp>
 
+// Idea: Poisson editing of meshes. In each triangle a coordinate is linear and has one gradient.
+// The mesh whose gradients are closest to wanted ones (those of another mesh, or rotated and
+// scaled) is the solution of a sparse linear system, the cotangent Laplacian, with some vertices
+// fixed. The matrix depends on the parameter mesh alone, so it is factored once for all three
+// coordinates; in plan only z is solved for, and terrain remains terrain. fuse_tin cuts the target
+// along the patch's outline, splits the patch's edges there, and bends the patch to the target's
+// heights on it.
+// Source: Yu et al. 2004; Northeast Normal University 2015, equations 14 to 16 and algorithm 1.
+// Cost: one sparse Cholesky factorisation (solver/linear/linear.hpp) for the vertices of the patch,
+// besides an overlay of both meshes with exact crossings. One thread.
+// Not for: rasters (paste.hpp); patches with holes or several outlines; large rotations of surfaces
+// that fold: a gradient knows only its triangle.
+// Example:
+//     FusedTin const fused = fuse_tin(tin, patch_tin);
+//     std::vector<CoordinateGradients> const own = gradients_of(tin, tin.vertices);
+//     PastedTin const same = paste_tin(tin, own, {{0, tin.vertices[0]}});
+// More: docs/decisions/0012-blending.md.
+
 namespace thalweg::blend {
 
 /// Gradients of the three coordinates of a mesh in a triangle of a parameter mesh.
