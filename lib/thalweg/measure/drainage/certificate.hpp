@@ -13,6 +13,27 @@
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/flow/route.hpp>
 
+// Idea: A DEM drains along a network if the water of its own steepest descent keeps to the network,
+// so three questions are asked of the DEM's flow field. Does any cell lie in a depression? Does the
+// water of each river cell go on to a cell of its own reach or of one downstream? Does the flow
+// path from each source come to its outlet? The cells of these paths are then compared with the
+// cells under the network at 0, 1 and 2 cells, as precision (paths that lie on rivers) and recall
+// (rivers that are found). The usual test, cells above an area threshold, is only reported, at the
+// threshold that agrees best: a DEM may have more valleys than rivers were drawn. extract_ridges
+// asks the same of ridges, as streams of the DEM turned upside down.
+// Source: ours, with its limits in docs/certificate.md; D8 by O'Callaghan and Mark 1984; ridges as
+// in Nenu 2015, figure 8.
+// Cost: O(n) and the lengths of all flow paths from sources, beside the flow field that it is
+// given; all thresholds (16, 24, 32, 48 ...) are counted in one pass. One thread.
+// Not for: rivers wider than a cell, which have no trace of their own; a river file without a DEM
+// (topology.hpp). Rivers of one survey rarely pass on a DEM of another: read the findings, not the
+// verdict.
+// Example:
+//     Certificate const found = certify(dem, flow::route(dem), flow::reaches_of(network));
+//     double const share_at_one_cell = found.traced[1].recall;
+//     ExtractedRidges const ridges = extract_ridges(dem, ridge_lines);
+// More: docs/certificate.md.
+
 namespace thalweg::measure {
 
 /// Agreement of extracted cells with river cells within a distance.

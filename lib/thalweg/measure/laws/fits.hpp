@@ -9,6 +9,22 @@
 
 #include <thalweg/core/vec.hpp>
 
+// Idea: A power law is a straight line through logarithms. Small areas are by far the most
+// frequent, so that a fit through all places would describe them alone. Places are therefore
+// gathered in bins of equal width of log area; each bin with enough places gives one point, the
+// mean of its logarithms, and all bins count alike.
+// Source: Tarboton et al. 1991 (bins of area).
+// Cost: O(places log bins). One thread.
+// Not for: deciding whether a power law holds at all: r2 of a few bins is high for many curves.
+// Slopes of single cells, whose logarithm does not exist where the DEM is level: slope_area
+// (measure/relief/slope_area.hpp) adds drops and lengths up first.
+// Example:
+//     std::vector<AtArea> const places = {{1e4, 100.0}, {1e5, 400.0}, {1e6, 1600.0}};
+//     if (auto const law = fit_power_law(places, {.least_places = 1})) {
+//         double const hack_exponent = law->exponent;
+//     }
+// More: docs/relief_measures.md, "Methods".
+
 namespace thalweg::measure {
 
 /// A least-squares line.

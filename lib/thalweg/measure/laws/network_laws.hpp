@@ -12,6 +12,26 @@
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/measure/laws/fits.hpp>
 
+// Idea: River networks of all regions obey the same statistical laws, and these laws tell whether a
+// network is like a natural one without any place being compared. Streams are counted by Strahler
+// order, and number, length and area change by a constant factor from order to order (Horton); mean
+// numbers of side branches k orders below their stream grow by a constant factor with k (Tokunaga).
+// Lengths of main streams and slopes follow powers of area (Hack, Flint). Each law is one straight
+// line through logarithms, so that its exponent, r2 and number of points come from one
+// least-squares fit.
+// Source: Horton 1945; Schumm 1956; Strahler 1957; Tokunaga 1978; Peckham 1995; Shreve 1967; Smart
+// 1972; angles as Devauchelle et al. 2012. Natural ranges, with their sources: natural_ranges() in
+// measure/relief/relief.hpp.
+// Cost: O(vertices + arcs log arcs). One thread.
+// Not for: networks of two or three orders, whose ratios come from as many points; a proof that a
+// network is natural: Horton's ratios alone tell little, Tokunaga's a and c and the angles tell
+// more.
+// Example:
+//     HortonLaws const laws = horton(network, network::order(network), ds_area_m2);
+//     double const bifurcation = laws.bifurcation ? laws.bifurcation->ratio : 0.0;
+//     JunctionAngles const angles = junction_angles(network, 10.0 * grid.cell_m);
+// More: docs/relief_measures.md.
+
 namespace thalweg::measure {
 
 /// The streams of one Strahler order: maximal chains of arcs of equal order.

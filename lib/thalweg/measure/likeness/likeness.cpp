@@ -12,6 +12,8 @@
 #include <thalweg/core/same_grid.hpp>
 #include <thalweg/measure/relief/internal/horn.hpp>
 
+// Described in docs/rebuild.md.
+
 namespace thalweg::measure {
 namespace {
 

@@ -10,6 +10,24 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/flow/catchments.hpp>
 
+// Idea: Terrains that were built around the same rivers are compared with the DEM of the place.
+// Their heights agree partly because the rivers do, so the correlation of heights flatters every
+// method; the height above the nearest river cell, away from the rivers, takes that part out.
+// Heights say little of form: divides of both are therefore drawn between the catchments of the
+// same reaches, and counted as found (of the DEM's) and as right (of the terrain's) within three
+// cells. Slopes are compared as distributions (Kolmogorov-Smirnov), since no method knows where
+// single steep cells lie.
+// Source: ours: docs/rebuild.md and docs/decisions/0032-rebuild.md.
+// Cost: O(n) and one flow field a terrain, and one exact distance transform. Sums of heights run on
+// all cores.
+// Not for: terrains around different rivers, which share no reaches; whether terrain is plausible
+// where no DEM is known (measure/relief/relief.hpp).
+// Example:
+//     flow::Reaches const rivers = flow::reaches_of(network);
+//     ComparedTerrains const compared = compare_terrains(dem, {other_dem}, rivers);
+//     double const found = compared.terrains.front().divides_found;
+// More: docs/rebuild.md, "Comparing it with a DEM".
+
 namespace thalweg::measure {
 
 /// How like a terrain is to a DEM; NaN: nothing to compare.

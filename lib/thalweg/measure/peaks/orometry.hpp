@@ -9,6 +9,26 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 
+// Idea: Prominence asks how far one must descend from a peak before one can climb to a higher one.
+// From every cell the steps to the highest neighbour lead to one peak, so that the peaks divide the
+// DEM into areas. Where two areas touch, only their highest saddle matters. Saddles are taken from
+// the highest down, as if a sea receded: each joins the areas on its two sides, and the lower of
+// their highest peaks gets its height above that saddle (union-find). Isolation is the distance to
+// the nearest higher cell, found in rings around the peak that stop as soon as no ring can hold a
+// nearer one.
+// Source: Argudo et al. 2019, for the metrics.
+// Cost: O(n + s log s) for s pairs of areas that touch; isolation O(r^2) for a distance of r cells,
+// O(n) for a peak that nothing exceeds. Memory about 5 bytes a cell and the saddles. Steps to the
+// highest neighbour and isolation run on all cores.
+// Not for: the prominence of peaks whose higher neighbour lies off the DEM: it is too large, and
+// peaks on the border are left out. White noise has a peak in every ninth cell: set
+// least_prominence_m.
+// Example:
+//     std::vector<Peak> const peaks = prominent_peaks(dem, 30.0);
+//     Orometry const metrics = orometry(dem, {.least_prominence_m = 50.0});
+//     double const far_m = peaks.empty() ? 0.0 : isolation(dem, peaks.front().cell);
+// More: docs/relief_measures.md, "Methods".
+
 namespace thalweg::measure {
 
 /// A peak of a DEM: of cells equally high the first in row order is the higher one.

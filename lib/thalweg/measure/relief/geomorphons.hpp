@@ -8,6 +8,24 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 
+// Idea: An observer on a cell looks along eight lines of sight. On each the steepest upward and the
+// steepest downward slope are compared: the line rises, falls or is level. The numbers of rising
+// and falling lines, not their order, give the form from a table: eight falling is a peak, eight
+// rising a pit, all level a flat. Because the steepest slope within the whole search distance
+// decides, the form adapts to the size of the valley around it, up to that distance; a window of
+// fixed size would see one scale alone.
+// Source: Jasiewicz and Stepinski 2013, figure 3; the same results as GRASS's r.geomorphon but for
+// rounding.
+// Cost: O(n search_cells), eight lines of up to search_cells - 1 cells for each cell; one byte a
+// cell. Rows run on all cores, and inner loops run along rows, so that compilers vectorise them.
+// Not for: a border of search_cells cells, which is not classified; land gentler than flat_deg, all
+// of it flat. Large valleys need a larger search distance, and the cost grows with it.
+// Example:
+//     Geomorphons const forms = geomorphons(dem, {.search_cells = 15, .flat_deg = 1.0});
+//     auto const valleys = forms.cells[static_cast<std::size_t>(Form::valley) - 1];
+//     bool const on_ridge = forms.form[Cell{40, 30}] == static_cast<std::uint8_t>(Form::ridge);
+// More: docs/relief_measures.md, "Methods".
+
 namespace thalweg::measure {
 
 /// The ten landforms, numbered as in GRASS; 0: not classified.

@@ -7,6 +7,22 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 
+// Idea: The hypsometric curve is the list of heights in order, read at 101 places. Nothing has to
+// be sorted for that. The bits of a float are turned into an unsigned number in the same order, and
+// read as three digits of 11, 11 and 10 bits. The first pass counts the cells by their first digit;
+// that tells for each place which first digit it has, and the next pass counts only cells with
+// these digits by their second one. After three passes each of the 101 heights is known exactly.
+// Source: the curve by Strahler 1952, the integral by Pike and Wilson 1971; the counting by radix
+// is ours.
+// Cost: O(n), a count before three passes and a mean after them; memory a few megabytes, whatever
+// the DEM's size. Passes run on all cores.
+// Not for: heights interpolated between cells; the DEM without its sea: set cells of the sea to NaN
+// first.
+// Example:
+//     Hypsometry const curve = hypsometry(dem);
+//     double const median_m = curve.points[50].z;
+// More: docs/relief_measures.md.
+
 namespace thalweg::measure {
 
 /// A point of the hypsometric curve.

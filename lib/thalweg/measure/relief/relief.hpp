@@ -20,6 +20,25 @@
 #include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/measure/texture/texture.hpp>
 
+// Idea: Whether terrain looks natural is decided by many indices together: terrain from noise
+// agrees in some of them, but not in all. relief() computes each with the function made for it.
+// There is no theory of what is natural for most, so they are compared with two real DEMs of
+// different kinds, a steep range and a plateau: an index between the lower value over a margin and
+// the higher value times it is plausible. For a few, such as long straight channels, only large
+// values are a fault. Indices that depend on the extent, or on how heights were surveyed, judge
+// nothing.
+// Source: ours: docs/relief_measures.md; each index names its own source.
+// Cost: O(n) or little more for most; geomorphons O(n search_cells). Flow field and statistics are
+// given.
+// Not for: a verdict: two DEMs are not all landscapes, and an index outside its range is a
+// question, not a fault. How near a terrain is to one DEM: measure/likeness/likeness.hpp.
+// Example:
+//     flow::FlowField const drainage = flow::route(dem);
+//     Relief const indices = relief(dem, drainage, statistics(dem));
+//     ReliefMetric const& metric = relief_metrics()[0];
+//     bool const is_plausible = metric.of(indices) <= relief_range(0).high;
+// More: docs/relief_measures.md.
+
 namespace thalweg::measure {
 
 /// Morphometric indices of a DEM; NaN: the DEM is too small.

@@ -10,6 +10,24 @@
 #include <thalweg/flow/route.hpp>
 #include <thalweg/measure/laws/fits.hpp>
 
+// Idea: Where uplift and erosion balance, slope falls with a power of area, S = k A^-theta. Slopes
+// of single cells are a poor measure of it: heights in whole metres give zeros and jumps, and zeros
+// have no logarithm. So the cells of a bin of area count as one long reach, whose slope is total
+// drop over total length; errors of single heights then cancel along a flow path. chi avoids slopes
+// altogether: the law, integrated from the outlet up, makes height a linear function of chi, the
+// integral of (1 m2 / A)^theta, so that r2 of height against chi tells how near a river is to
+// equilibrium.
+// Source: Flint 1974; Wobus et al. 2006; Perron and Royden 2013.
+// Cost: O(n log bins) for slope_area; one pass and the cells of the stems for chi. One thread.
+// Not for: hillslopes and channels in one fit: choose support_cells so that only channels count.
+// DEMs cut by their border, whose areas are too small; rivers of a file
+// (measure/rivers/profiles.hpp has them, carved).
+// Example:
+//     auto const law = slope_area(dem, flow_field, {.support_cells = 200});
+//     double const theta = law ? -law->exponent : 0.45;
+//     auto const straight = chi(dem, flow_field, {.theta = theta});
+// More: docs/relief_measures.md, "Methods".
+
 namespace thalweg::measure {
 
 /// Options of slope_area().

@@ -11,6 +11,22 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 
+// Idea: Slope and aspect of a cell come from a weighted difference of its eight neighbours (Horn):
+// more noise cancels than in a difference of two. Each slope also goes into a class of 0.01
+// degrees, so that percentiles come without a sorted list. Two indices look for the grid in the
+// terrain: how many more cells face one of its eight directions than would by chance, and how large
+// the largest patch of nearly level land is. perched and sunken_share look for rivers that stand on
+// walls.
+// Source: Horn 1981. The two indices are ours: docs/relief_measures.md.
+// Cost: O(n). slopes runs on all cores, by blocks of rows.
+// Not for: the border and cells beside no data, which are left out; cells of a size in degrees. The
+// slope is one over two cells: on a coarser DEM of the same land it is gentler.
+// Example:
+//     Slopes const found = slopes(dem);
+//     double const median_deg = found.percentile_deg[3]; // of slope_percents
+//     double const below_rivers = sunken_share(dem, river_cells);
+// More: docs/relief_measures.md, "Methods".
+
 namespace thalweg::measure {
 
 inline constexpr std::array<int, 7> slope_percents = {5, 10, 25, 50, 75, 90, 95};

@@ -8,6 +8,23 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/solver/statistics/field_statistics.hpp>
 
+// Idea: The numbers by which Zhang, Liu and Li describe terrain. Sums are taken row by row,
+// relative to one height of the DEM, with compensation; rows are then added in their order. So
+// large offsets cost no digits, a plain has a deviation of exactly 0, and any number of threads
+// gives the same bits. The fractal dimension is 3 - H: mean squared differences of heights grow as
+// lag^(2 H), and H is the slope of that line of logarithms. The correlation length is the lag at
+// which the correlation falls to 1/e.
+// Source: Zhang, Liu and Li (zhang in docs/references.bib), table 4 and sections 2 and 3.4.
+// Cost: two passes for moments, one for each lag of the dimension, O(n log n) for the correlation
+// at all lags. Memory: a few rows. Rows run on all cores.
+// Not for: correlation lengths above half the DEM's extent: they are extrapolated. slope_rad takes
+// a cell for 1 m, as in the paper's table: slope_true_deg has the true slope.
+// Example:
+//     Statistics const found = statistics(dem);
+//     double const exponent = 3.0 - found.dimension;
+//     bool const is_plain = found.std == 0.0;
+// More: docs/statistics.md.
+
 namespace thalweg::measure {
 
 /// An extreme height and its cell.

@@ -5,6 +5,21 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 
+// Idea: Soil is wet where much water arrives and little can leave. In a steady state with a
+// conductivity that falls exponentially with depth, the depth of the water table is a function of
+// ln(a / tan b) alone: a is the area that drains through a metre of width, tan b the slope as the
+// hydraulic gradient. Cells with the same index get wet at the same time.
+// Source: Beven and Kirkby 1979; slope by Horn 1981.
+// Cost: O(n), 8 bytes a cell. Rows run on all cores.
+// Not for: areas of D8, which put the water of a hillslope into single lines: take route_dinf's.
+// Level land, where the index has no limit: it stops at least_slope. Soils and climates that differ
+// within the DEM.
+// Example:
+//     flow::FlowField const drainage = flow::route(dem);
+//     Raster<double> const area = flow::route_dinf(dem, drainage).area_cells;
+//     Raster<double> const index = wetness(dem, area, {.least_slope = 0.001});
+// More: docs/measures.md.
+
 namespace thalweg::measure {
 
 /// Options of wetness().

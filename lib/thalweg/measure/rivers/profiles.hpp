@@ -12,6 +12,29 @@
 #include <thalweg/flow/route.hpp>
 #include <thalweg/measure/laws/fits.hpp>
 
+// Idea: Rivers that erode at the rate of uplift have slopes S = k A^-theta. Chi, the integral of (1
+// m2 / A)^theta up from the outlet, straightens their profiles: height against chi is a line of
+// slope k_sn, for stems and tributaries alike. This gives three measures. theta is the value for
+// which all rivers of a basin fall best on one line, found in two passes over a grid of values.
+// k_sn of a cell is the slope of the line through a window of river. Where the river was disturbed,
+// the profile stands above a concave one: the place highest above the lower convex hull is a
+// knickpoint, then likewise on both sides of it. A cell's receiver always stands before it, so that
+// sums run without recursion.
+// Source: Perron and Royden 2013; Wobus et al. 2006; Schwanghart and Scherler 2017, here against
+// chi.
+// Cost: O(n) once for areas, then O(cells of rivers), times 38 at most for theta, times the window
+// for k_sn, times the number of knickpoints for these. k_sn runs on all cores, the rest on one.
+// Not for: the DEM's own heights: profiles are carved, so that noise becomes steps. Rivers whose
+// catchment the edge cuts (is_cut): chi and k_sn are wrong there. Lithology or uplift that vary
+// show as knickpoints, too.
+// Example:
+//     RiverProfiles const rivers = river_profiles(flow::reaches_of(network), dem, flow_field);
+//     auto const fitted = fit_theta(rivers);
+//     std::vector<double> const chi = chi_along(rivers, fitted ? fitted->theta : 0.45);
+//     std::vector<double> const k_sn = steepness_along(rivers, chi);
+//     std::vector<Knickpoint> const steps = knickpoints(rivers, chi, {.drop_m = 30.0});
+// More: docs/measures.md.
+
 namespace thalweg::measure {
 
 /// The long profiles of rivers on a DEM: a tree of river cells. Law: a cell's receiver stands before it.

@@ -10,6 +10,26 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/flow/route.hpp>
 
+// Idea: Real slopes form faces: neighbouring cells face the same way, spurs repeat at some
+// distance, and ridges have a direction. Only the direction of the gradient tells that, so
+// gradients are scaled to length 1. Their autocorrelation at three lags tells how large faces are.
+// Within a Gaussian window the mean of their outer products (the structure tensor) has two equal
+// eigenvalues where slopes face all ways and one is 0 where all ridges are parallel: the difference
+// over the sum is the anisotropy. Opposite sides of a ridge add up, since the product is the same
+// for both. straight_channels looks for the opposite fault, valleys that follow the grid.
+// Source: Bigün and Granlund 1987 (structure tensor). Lags, windows and straight channels are ours:
+// docs/relief_measures.md.
+// Cost: O(n), 8 bytes a cell: tensors are averaged over blocks of an eighth of the window before
+// they are smoothed. straight_channels O(channel cells reach_steps). Rows run on all cores; the
+// same bits for any number of threads.
+// Not for: DEMs smaller than four windows, whose anisotropy is NaN. DEMs of different cell sizes: a
+// gradient spans two cells, so that the finer DEM shows finer faces.
+// Example:
+//     GradientTexture const texture = gradient_texture(dem, {.window_m = 960.0});
+//     StraightChannels const channels = straight_channels(flow_field, {.reach_steps = 60});
+//     double const at_360_m = texture.correlation[0];
+// More: docs/relief_measures.md, "Methods".
+
 namespace thalweg::measure {
 
 inline constexpr std::array<double, 3> texture_lags_m = {360.0, 720.0, 1440.0};

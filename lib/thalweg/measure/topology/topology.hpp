@@ -10,6 +10,24 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 
+// Idea: A river file is a set of trees only if ids, ends, directions, orders, heights and lines all
+// agree. The checks run in an order in which each may rely on what those before it found, and a
+// fault, once named, counts as repaired: an end that misses its node belongs to the node at its
+// place, so that it causes no second tree and no wrong order. One fault then gives one finding, and
+// a file without findings keeps every law of the schema. What lines do to one another in plan is
+// decided by exact predicates without a tolerance; only dangling ends and spikes have one, near_m.
+// Source: ours: docs/certificate.md, "The network", with all kinds in docs/findings.md.
+// Cost: about O(vertices log vertices), and the search for crossings (geometry/crossings.hpp). One
+// thread.
+// Not for: repairing (check --fix does that); whether a DEM drains along the network
+// (measure/drainage/certificate.hpp); whether directions are right where no column says so
+// (network/import/import_lines.hpp).
+// Example:
+//     NetworkFile const file = as_file(elevated, network::order(elevated.planform));
+//     TopologyReport const report = check_topology(file);
+//     bool const is_sound = report.findings.empty();
+// More: docs/certificate.md; docs/findings.md.
+
 namespace thalweg::measure {
 
 /// Options of check_topology().
