@@ -14,6 +14,26 @@
 #include <thalweg/core/vec.hpp>
 #include <thalweg/draw/picture.hpp>
 
+// Idea: A topographic map of a DEM. Numbers are placed greedily, the most important first, and none
+// is moved again: each summit tries eight places around its mark, and takes the free one where its
+// number covers least of rivers and shores. Then every stretch of every index contour that is long
+// enough is judged: by how much it bends, how many contours cross it, how far it is tilted and
+// whether its digits look uphill; the best comes first, and others keep a distance from it. Rooms
+// of numbers are turned rectangles; two are apart exactly if a normal of one of their sides
+// separates them. Shores are contours of the share of water around a cell, so that they do not
+// follow the cells' corners.
+// Source: ours. Contours are not computed here: the sheet has them (io/raster/dem_derivatives.hpp
+// lets GDAL trace them).
+// Cost: O(n) for the ground; numbers O(length of index contours on the sheet), times the numbers
+// placed. One thread.
+// Not for: comparing bytes between machines: text uses the fonts that each has. The ground alone,
+// as a texture for 3D programs: ground(). Net and hidden lines: wireframe.hpp.
+// Example:
+//     MapSheet sheet{.dem = dem, .hillshade = shade_of_dem};
+//     sheet.spot_heights = {{{500.0, 500.0}, 812.0}};
+//     Picture const picture = map(sheet, {.title = "Valley", .format = Format::svg});
+// More: docs/commands.md, "Pictures".
+
 namespace thalweg::draw {
 
 /// Options of lines().

@@ -8,6 +8,26 @@
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/draw/picture.hpp>
 
+// Idea: In parallel projection from above, a point of the net is hidden exactly if a line nearer to
+// the viewer is higher in its column of the sheet. So one needs no depths, only a horizon: the
+// highest line so far in every column, kept as pieces of straight lines. Meshes are taken from
+// front to back; of each of their sides the parts above the horizon are drawn, and the side then
+// raises it. Terrain has no overhangs, so that one horizon suffices. Rivers are cut at the meshes
+// they cross and tested in the same order, a little below the horizon, since they lie on it. Knots
+// are means of the cells around them: with less the net is noisy, with more valleys fill up.
+// Source: floating horizon, Wright 1973; the net as in the perspective figures of Zhang, Liu and Li
+// (zhang in docs/references.bib).
+// Cost: about k^1.5 for k knots, 40 000 at most: each side finds the pieces of the horizon above it
+// by binary search and replaces them. The DEM is read once, for the means. One thread.
+// Not for: a view with perspective, or from below; elevations near 0 and 90 degrees. Small streams,
+// which would hide the net: only the three highest orders are drawn. A picture of every cell:
+// map.hpp.
+// Example:
+//     WireframeScene const scene{.dem = dem, .network = &elevated, .orders = &network_orders};
+//     double const azimuth_deg = azimuth_up_valley(scene);
+//     Picture const picture = wireframe(scene, {.title = "Valley", .azimuth_deg = azimuth_deg});
+// More: docs/commands.md, "Pictures".
+
 namespace thalweg::draw {
 
 /// Options of wireframe().
