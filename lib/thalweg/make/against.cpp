@@ -19,6 +19,8 @@
 #include <thalweg/surface/dilation/dilation.hpp>
 #include <thalweg/surface/tin/rasterise_tin.hpp>
 
+// Described in docs/rebuild.md.
+
 namespace thalweg::make {
 namespace {
 

@@ -12,6 +12,8 @@
 #include <thalweg/core/cells.hpp>
 #include <thalweg/skeleton/ridges.hpp>
 
+// Described in docs/rebuild.md.
+
 namespace thalweg::make {
 namespace {
 

@@ -28,6 +28,8 @@
 #include <thalweg/surface/equilibrium/match_texture.hpp>
 #include <thalweg/surface/uplift/uplift_pattern.hpp>
 
+// Described in docs/equilibrium.md.
+
 namespace thalweg::make {
 namespace {
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/make/internal/balance.hpp>
 
+// Described in docs/equilibrium.md.
+
 namespace thalweg::make {
 
 Surface equilibrium(GroundInput const& in, Run const& run) {

@@ -6,6 +6,8 @@
 #include <thalweg/make/internal/balance.hpp>
 #include <thalweg/surface/equilibrium/rebuild.hpp>
 
+// Described in docs/rebuild.md.
+
 namespace thalweg::make {
 namespace {
 

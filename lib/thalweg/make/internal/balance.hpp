@@ -11,6 +11,8 @@
 #include <thalweg/make/internal/ground.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 
+// Described in docs/equilibrium.md.
+
 namespace thalweg::make {
 
 /// A terrain in equilibrium.
