@@ -36,7 +36,7 @@ double process_seconds() {
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-double stage_s(make::Made const& made, std::string const& name) {
+double stage_s(make::MakeResult const& made, std::string const& name) {
     double sum = 0.0;
     for (StageTime const& time : make::timings_of(made)) {
         sum += time.stage == name ? time.wall_s : 0.0;
@@ -68,7 +68,7 @@ public:
         return times_;
     }
     studio::Engine& engine() { return engine_; }
-    make::Made const& made() const { return *made_; }
+    make::MakeResult const& made() const { return *made_; }
 
 private:
     void note(bool is_finished) {
@@ -81,7 +81,7 @@ private:
     std::mutex guard_;
     Clock::time_point begun_;
     Times times_;
-    std::shared_ptr<make::Made const> made_;
+    std::shared_ptr<make::MakeResult const> made_;
     studio::Engine engine_{
         {.heights = [this](studio::Job const&, studio::Heights const& heights) { note(heights.is_finished); }}};
 };

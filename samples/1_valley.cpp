@@ -36,7 +36,7 @@ int main() {
     StreamNetwork const traced = network::trace(skeleton, {framed.mouth});
 
     // Short leaves are burrs of the skeleton: none under 300 m, ten cells, is left.
-    network::Pruned const pruned = network::prune(traced, {.length_m = 300.0, .cell_m = 30.0});
+    network::PrunedNetwork const pruned = network::prune(traced, {.length_m = 300.0, .cell_m = 30.0});
     NetworkOrders const orders = network::order(pruned.network);
     //! [network]
 

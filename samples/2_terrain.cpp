@@ -37,17 +37,19 @@ int main(int count, char** words) try {
 
     //! [stages]
     // Lines become arcs of a tree. Whatever had to be mended is told; here nothing is.
-    network::Imported const imported = network::import_lines(drawn, {.orientation = network::Orientation::as_drawn});
+    network::ImportedNetwork const imported =
+        network::import_lines(drawn, {.orientation = network::Orientation::as_drawn});
     for (Finding const& repair : imported.repairs) {
         std::printf("%s: %s\n", std::string(repair.kind).c_str(), repair.text.c_str());
     }
 
     // The valleys rise 2 m in 100 m from the outlet; a network with heights is another type than one without.
-    network::Elevated const raised = network::set_heights(imported.network, {.slope = 0.02});
+    network::NetworkWithHeights const raised = network::set_heights(imported.network, {.slope = 0.02});
 
     // The rivers' cells, and the land that rises from them: 400 m from the valley floor to the farthest crest.
     Valley const valley = network::rasterise(raised.network, grid).valley;
-    surface::Dilated const land = surface::dilate(valley, {.increment = {.increment = "rise_fall"}, .relief_m = 400.0});
+    surface::DilatedDem const land =
+        surface::dilate(valley, {.increment = {.increment = "rise_fall"}, .relief_m = 400.0});
     //! [stages]
 
     io::write_dem(land.dem, path);

@@ -26,7 +26,7 @@ int main() try {
     double const step = 5.0;
     surface::IncrementParams terraces;
     terraces.function = [step](double x) { return std::fmod(x, 10.0) == 0.0 ? step : 0.125; };
-    surface::Dilated const land = surface::dilate(valley, {.increment = terraces, .relief_m = 60.0});
+    surface::DilatedDem const land = surface::dilate(valley, {.increment = terraces, .relief_m = 60.0});
     //! [increment]
 
     // Each terrace is a jump in the slope of all hillsides at once: the library says where.
@@ -47,7 +47,7 @@ int main() try {
 
     // The same as an expression, as a recipe would have it: to the last bit.
     surface::IncrementParams const written{.increment = "abs(x-10*rint(x/10))<0.5 ? 5 : 0.125"};
-    surface::Dilated const same = surface::dilate(valley, {.increment = written, .relief_m = 60.0});
+    surface::DilatedDem const same = surface::dilate(valley, {.increment = written, .relief_m = 60.0});
     auto const a = land.dem.values();
     auto const b = same.dem.values();
     std::printf("as an expression: %s\n", std::equal(a.begin(), a.end(), b.begin(), b.end()) ? "the same" : "another");

@@ -57,10 +57,10 @@ int main() try {
                 laws.length.value().ratio);
 
     // Heights that are graded: the more a river drains, the flatter it runs. Then the land around it.
-    network::Graded const raised =
+    network::GradedNetwork const raised =
         network::set_heights_graded(plan, areas.us_area_m2, areas.ds_area_m2, {.slope = 0.01, .least_area_m2 = 900.0});
     Valley const valley = network::rasterise(raised.network, grid).valley;
-    surface::Dilated const land = surface::dilate(valley, {.relief_m = 300.0});
+    surface::DilatedDem const land = surface::dilate(valley, {.relief_m = 300.0});
     std::printf("%.0f m of relief above the rivers, %lld cells in pits\n", land.rise_m,
                 static_cast<long long>(flow::route(land.dem).pits));
 } catch (Error const& error) {

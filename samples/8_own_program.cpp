@@ -26,7 +26,7 @@ Heights filled(Heights const& known, double cell_m, Run const& run) {
     Grid const grid{known.width, known.height, cell_m, 0, 0, ""};
     Skeleton skeleton{Raster<float>(grid)};
     std::copy(known.z.begin(), known.z.end(), skeleton.z.values().begin());
-    surface::Diffused const land = surface::diffuse(skeleton, {.mode = surface::Diffusion::explicit_sweeps}, run);
+    surface::DiffusedDem const land = surface::diffuse(skeleton, {.mode = surface::Diffusion::explicit_sweeps}, run);
     return {known.width, known.height, {land.dem.values().begin(), land.dem.values().end()}};
 }
 //! [arrays]

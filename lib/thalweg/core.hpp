@@ -23,11 +23,11 @@
 #include <thalweg/core/rosgen.hpp>
 #include <thalweg/core/run/beside.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/kept.hpp>
 #include <thalweg/core/run/lanes.hpp>
 #include <thalweg/core/run/memory.hpp>
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/result_cache.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/run/stage_log.hpp>
 #include <thalweg/core/same_grid.hpp>

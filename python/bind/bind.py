@@ -52,14 +52,6 @@ LEFT_OUT = [
         r"\w+::name_of|io::(quantity_of|schema_named|point_format|tin_format|network_format)",
         "a word is a str",
     ),
-    (
-        r"io::(is_pipe_or_device|refuse_pipe|files_there|read_text|write_text|copy_file|tar_entry|tar_end|names_connection|require_allowed|is_recipe_file|confine_proj|packed|base64"
-        r"|dataset_files|conversions_of|plain_copy|write_tables|table_of|all_schemas|field_of|shortened_names|is_text_of_points|is_point_cloud|holds_tin"
-        r"|web_pyramid|web_tiles_at|write_web_tiles|lines_in_degrees)",
-        "files and formats inside io",
-    ),
-    (r"(skeleton|fractal|growth|network)::(check|check_targets|require_growth|kept_heights|noise_row|stencil_weights)", "a part of a stage"),
-    (r"measure::relief_range", "by the number of a metric, which relief_rows names"),
     (r"geometry::put_in_order|recipe::(un)?set_key", "it changes its argument: see by_hand.cpp for what there is instead"),
     (r"io::write_geopackage", "see by_hand.cpp"),
 ]
@@ -93,7 +85,7 @@ DTYPES = {
 }
 TEXTS = {"std::string", "std::string_view", "char const*", "io::Source"}
 # What only the library makes: parts of a terrain that belong together.
-ONLY_MADE = {("recipe", "Plan")} | {("make", name) for name in ("Ground", "Planform", "Terrain", "Water", "Made", "Assessment", "SurfaceMeasures", "Rivers", "RiverFile")}
+ONLY_MADE = {("recipe", "Plan")} | {("make", name) for name in ("Ground", "Planform", "Terrain", "Water", "MakeResult", "Assessment", "SurfaceMeasures", "Rivers", "RiverFile")}
 # By hand: by_hand.cpp binds it.
 BY_HAND = {("", "StreamNetwork"), ("draw", "Picture")}
 NOT_RECORDS = {

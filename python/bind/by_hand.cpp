@@ -518,7 +518,7 @@ Gives report.json of a terrain, as `thalweg make` writes it, without the files.
 
 Parameters
 ----------
-made : Made
+made : MakeResult
 
 Returns
 -------
@@ -526,7 +526,7 @@ str
     one JSON object
 )words",
                  [](Args& in) {
-                     Held<make::Made> const made(in.required("made"), in.place("made"));
+                     Held<make::MakeResult> const made(in.required("made"), in.place("made"));
                      return in.call([&] { return report::write_report(*made, {}); });
                  });
 }

@@ -60,11 +60,11 @@ class Terrain:
 
     Attributes
     ----------
-    made : terrain.Made
+    made : terrain.MakeResult
         Everything, as the library has it; what follows are its parts.
     """
 
-    def __init__(self, made: terrains.Made, files: list[_networks.TemporaryPath]) -> None:
+    def __init__(self, made: terrains.MakeResult, files: list[_networks.TemporaryPath]) -> None:
         self.made = made
         self._files = files  # write() copies them
 

@@ -64,7 +64,7 @@ TEST(Deform, ScaleOneAndHandlesWhereTheyAreChangeNothing) {
                 handles.push_back({grid.at(i), static_cast<double>(target[i])});
             }
         }
-        Deformed deformed;
+        DeformedDem deformed;
         try {
             deformed = deform(target, region, handles);
         } catch (BadInput const&) {
@@ -104,7 +104,7 @@ TEST(Deform, EqualsThePasteOfTheScaledTarget) {
             RC_ASSERT_THROWS_AS(deform(target, region, handles), BadInput);
             return;
         }
-        Deformed deformed;
+        DeformedDem deformed;
         try {
             deformed = deform(target, region, handles, {.scale = scale, .tolerance = 1e-12});
         } catch (BadInput const&) {
@@ -123,17 +123,17 @@ TEST(Deform, EqualsThePasteOfTheScaledTarget) {
 TEST(Deform, AHandleAloneLiftsATent) {
     Grid const grid = test::frame(5, 5);
     Raster<float> const target(grid, 10.0F);
-    Deformed const deformed = deform(target, lands::block(grid, {1, 1}, {3, 3}), {{{2, 2}, 22.0}});
+    DeformedDem const deformed = deform(target, lands::block(grid, {1, 1}, {3, 3}), {{{2, 2}, 22.0}});
     EXPECT_EQ((deformed.dem[{2, 2}]), 22.0F);
     EXPECT_FLOAT_EQ((deformed.dem[{2, 1}]), 14.0F); // sides s and corners c above 10: 4 s = 12 + 2 c, 4 c = 2 s
     EXPECT_FLOAT_EQ((deformed.dem[{1, 1}]), 12.0F);
     EXPECT_EQ((deformed.dem[{0, 2}]), 10.0F);
     EXPECT_EQ(deformed.cells, 9);
-    Deformed const alone = deform(target, lands::block(grid, {2, 2}, {2, 2}), {{{2, 2}, 22.0}});
+    DeformedDem const alone = deform(target, lands::block(grid, {2, 2}, {2, 2}), {{{2, 2}, 22.0}});
     EXPECT_EQ((alone.dem[{2, 2}]), 22.0F);
     EXPECT_EQ(alone.cells, 1);
     // All of the land may move when a handle holds it.
-    Deformed const whole = deform(target, Mask(grid, 1), {{{4, 0}, 3.0}});
+    DeformedDem const whole = deform(target, Mask(grid, 1), {{{4, 0}, 3.0}});
     for (float const z : whole.dem.values()) {
         EXPECT_FLOAT_EQ(z, 3.0F);
     }
@@ -151,7 +151,7 @@ TEST(Deform, ARegionTurnsAsAPatchOfTheTargetItself) {
         return distance(grid.centre(c), {20.5, 20.5}) < 14.0 ? 1 : 0;
     });
     Patch const patch = place_patch(target, grid, {.at = Vec2{20.5, 20.5}, .rotate_deg = 90.0, .part = part});
-    Pasted const turned = paste(target, patch);
+    PastedDem const turned = paste(target, patch);
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         Cell const c = grid.at(i);
         EXPECT_NEAR(turned.dem[i], (target[{40 - c.row, c.col}]), 1e-4);

@@ -139,7 +139,7 @@ TEST(Paste, EqualsTheDenseOracle) {
             RC_ASSERT_THROWS_AS(paste(d.target, d.patch, d.params), BadInput);
             return;
         }
-        Pasted const pasted = paste(d.target, d.patch, d.params);
+        PastedDem const pasted = paste(d.target, d.patch, d.params);
         RC_ASSERT(pasted.cells == changing);
         for (std::int64_t i = 0; i < d.target.cells(); ++i) {
             if (std::isnan((*truth)[i])) {
@@ -154,7 +154,7 @@ TEST(Paste, EqualsTheDenseOracle) {
 TEST(Paste, OutsideTheMaskAndInKeptCellsNothingChanges) {
     ASSERT_TRUE(rc::check("bit for bit", [] {
         Drawn const d = drawn();
-        Pasted pasted;
+        PastedDem pasted;
         try {
             pasted = paste(d.target, d.patch, d.params);
         } catch (BadInput const&) {
@@ -188,7 +188,7 @@ TEST(Paste, ThePatchThatIsTheTargetGivesTheTarget) {
         }
         d.patch = lands::patch_of(d.target, d.patch.mask, lift);
         d.params.holes = Holes::leave; // into a hole of both, land would be made
-        Pasted pasted;
+        PastedDem pasted;
         try {
             pasted = paste(d.target, d.patch, d.params);
         } catch (BadInput const&) {
@@ -208,7 +208,7 @@ TEST(Paste, TheSeamIsWhatTheDefinitionSays) {
     Raster<float> const target = lands::by_chance(grid, 3);
     Patch const patch = lands::patch_of(lands::by_chance(grid, 4), lands::block(grid, {3, 0}, {8, 5}));
     auto const truth = *oracle::paste({target, patch, tight()});
-    Pasted const pasted = paste(target, patch, tight());
+    PastedDem const pasted = paste(target, patch, tight());
     double greatest = 0.0;
     double squares = 0.0;
     int pairs = 0;

@@ -110,7 +110,7 @@ TEST(Replay, EstimatedDetailIsWrittenAsItWasUsed) {
         WalkFiles const files;
         Recipe recipe = read_recipe(toml, "r.toml");
         recipe.folder = files.folder();
-        Made const t = make::make(recipe);
+        MakeResult const t = make::make(recipe);
         ASSERT_TRUE(t.recipe.detail->midpoint.hurst && t.recipe.detail->midpoint.sigma);
         Recipe const resolved = read_recipe(write_recipe(t.recipe), "again.toml");
         EXPECT_EQ(resolved.detail->midpoint.hurst, t.recipe.detail->midpoint.hurst);

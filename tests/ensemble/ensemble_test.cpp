@@ -106,7 +106,7 @@ TEST(Ensemble, AMemberIsWhatItsRecipeMakes) {
     Ensemble const ensemble = of({"surface.mean_slope=10..30"}, 4);
     MadeMember const member = make_member(ensemble, 3);
     ASSERT_TRUE(member.made);
-    Made const alone = make::make(recipe_of(ensemble, member_of(ensemble, 3)));
+    MakeResult const alone = make::make(recipe_of(ensemble, member_of(ensemble, 3)));
     EXPECT_TRUE(std::ranges::equal(member.made->terrain.ground.dem.values(), alone.terrain.ground.dem.values()));
     EXPECT_EQ(member.row.state, MemberState::ok) << member.row.reason;
     auto const found = [&](std::string const& column) {

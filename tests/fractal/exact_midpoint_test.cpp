@@ -114,7 +114,7 @@ TEST(ExactMidpoint, LevelLandStaysLevel) {
     MidpointParams params;
     params.levels = 3;
     params.stencil = Stencil::exact; // sigma is estimated: 0
-    Displaced const displaced = midpoint(coarse, params);
+    DisplacedDem const displaced = midpoint(coarse, params);
     EXPECT_EQ(displaced.sigma, 0.0);
     for (float const z : displaced.dem.values()) {
         EXPECT_TRUE(z == 8848.86F || std::isnan(z));

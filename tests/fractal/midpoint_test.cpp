@@ -229,7 +229,7 @@ TEST(Midpoint, IsTheOracleWithAnyCrop) {
         Raster<float> const truth = oracle(coarse, params);
         params.width = *rc::gen::inRange<std::int64_t>(1, truth.width() + 1).as("width");
         params.height = *rc::gen::inRange<std::int64_t>(1, truth.height() + 1).as("height");
-        Displaced const displaced = midpoint(coarse, params);
+        DisplacedDem const displaced = midpoint(coarse, params);
         RC_ASSERT(displaced.dem.width() == params.width);
         RC_ASSERT(displaced.dem.height() == params.height);
         RC_ASSERT(alike(displaced.dem, truth));
@@ -276,7 +276,7 @@ TEST(Midpoint, IsTheSameOnAnyThreadsAndInstructions) {
             params.width = 601;
             params.height = 557;
             params.adaptation = adaptation;
-            Displaced const one = midpoint(coarse, params, on_threads(1));
+            DisplacedDem const one = midpoint(coarse, params, on_threads(1));
             EXPECT_TRUE(same_bits(one.dem, midpoint(coarse, params, on_threads(2)).dem));
             if (adaptation == Adaptation::global) {
                 Refinement refinement;
@@ -367,7 +367,7 @@ TEST(Midpoint, EstimatesWhatIsNotGiven) {
     Fractal const fractal = estimate_fractal(coarse);
     MidpointParams params;
     params.levels = 3;
-    Displaced const estimated = midpoint(coarse, params);
+    DisplacedDem const estimated = midpoint(coarse, params);
     EXPECT_EQ(estimated.hurst, fractal.hurst);
     EXPECT_EQ(estimated.sigma, fractal.sigma);
     params.hurst = fractal.hurst;
@@ -389,7 +389,7 @@ TEST(Midpoint, AdaptsToLandOfTwoKinds) {
     MidpointParams params;
     params.levels = 3;
     params.adaptation = Adaptation::local;
-    Displaced const local = midpoint(coarse, params);
+    DisplacedDem const local = midpoint(coarse, params);
     EXPECT_GT(local.adapted, 300);
     auto const roughness = [&](Raster<float> const& dem, std::int64_t west, std::int64_t east) {
         double sum = 0.0;
@@ -405,7 +405,7 @@ TEST(Midpoint, AdaptsToLandOfTwoKinds) {
     EXPECT_EQ(roughness(local.dem, 0, 8 * 12), 0.0);
     EXPECT_GT(roughness(local.dem, 8 * 22, 8 * 37), 0.0);
     params.adaptation = Adaptation::global;
-    Displaced const global = midpoint(coarse, params);
+    DisplacedDem const global = midpoint(coarse, params);
     EXPECT_EQ(global.adapted, 0);
     EXPECT_GT(roughness(global.dem, 0, 8 * 12), 0.0);
 }

@@ -385,8 +385,8 @@ void print_rivers(StreamNetwork const& network, Grid const& grid, Run const& run
     print("set_heights_by_type",
           hash_of(network::set_heights_by_type(network, types, {.draw = network::SlopeDraw::uniform, .seed = 3}, run)));
     flow::ContributingAreas const areas = flow::areas_nearest(network, grid, run);
-    network::Graded const graded = network::set_heights_graded(network, areas.us_area_m2, areas.ds_area_m2,
-                                                               {.least_area_m2 = grid.cell_m * grid.cell_m}, run);
+    network::GradedNetwork const graded = network::set_heights_graded(
+        network, areas.us_area_m2, areas.ds_area_m2, {.least_area_m2 = grid.cell_m * grid.cell_m}, run);
     print("set_heights_graded", hash_of(graded.network));
 }
 
@@ -404,7 +404,7 @@ void print_directions(StreamNetwork const& network, Raster<float> const& dem, Ru
         }
     }
     for (Raster<float> const* const heights : {static_cast<Raster<float> const*>(nullptr), &dem}) {
-        network::Imported const imported = network::import_lines(lines, {.dem = heights}, run);
+        network::ImportedNetwork const imported = network::import_lines(lines, {.dem = heights}, run);
         Fnv fnv = hash_of(imported.network);
         for (Finding const& doubt : imported.directions.doubts) {
             fnv.add(doubt.amount);
@@ -464,7 +464,7 @@ void print_blend(Raster<float> const& target, Tin const& tin, Run const& run) {
 
 /// solve_poisson with the loops of any processor of the architecture.
 Raster<double> poisson_plain(solver::GridProblem problem, Run const& run) {
-    auto const contents = solver::look_through(problem, "fingerprint", run);
+    auto const contents = solver::survey_problem(problem, "fingerprint", run);
     auto iterate = solver::coloured(problem, contents, run);
     auto const& rows = solver::grid_rows(Lanes::plain);
     double const zero = solver::residual_norm(iterate, rows, run);
@@ -548,7 +548,8 @@ void print_trees(Run const& run) {
 
 /// Land in equilibrium, and all that stands before and after it.
 void print_equilibrium(StreamNetwork const& pruned, Grid const& box, Run const& run) {
-    network::Rotated const turned = network::rotate(pruned, Grid{0, 0, box.cell_m, box.west, box.north, ""}, {20.0});
+    network::RotatedNetwork const turned =
+        network::rotate(pruned, Grid{0, 0, box.cell_m, box.west, box.north, ""}, {20.0});
     print("rotate", hash_of(turned.network));
     Grid const& grid = turned.grid;
     StreamNetwork const carried = network::carry_outlets(turned.network, grid).network;
@@ -561,14 +562,15 @@ void print_equilibrium(StreamNetwork const& pruned, Grid const& box, Run const& 
     cells.add_all(drawn.channels.receiver);
     print("channels", cells);
     network::ChooseLakesParams const lakes{.share = 0.3, .min_area_cells = 200.0};
-    network::Flooded const flooded = network::flood_lakes(drawn, network::choose_lakes(drawn, areas, lakes, run), run);
+    network::FloodedLakes const flooded =
+        network::flood_lakes(drawn, network::choose_lakes(drawn, areas, lakes, run), run);
     for (auto const edge : {surface::Edge::open, surface::Edge::closed, surface::Edge::coast}) {
         surface::EquilibriumParams params;
         params.edge = edge;
         print("equilibrium", hash_of(surface::equilibrium(flooded.drawn.channels, {}, params, run).dem));
     }
     surface::EquilibriumTerrain const land = surface::equilibrium(drawn.channels, {}, {}, run);
-    network::Shortened const kept = network::shorten(bent, drawn, land.shortened);
+    network::ShortenedChannels const kept = network::shorten(bent, drawn, land.shortened);
     ElevatedNetwork const raised = network::elevate_from_dem(kept.network, kept.drawn.channels, land.dem);
     print("raise_from_land", hash_of(raised));
     flow::FlowField const drainage = flow::route(land.dem, run);
@@ -627,7 +629,7 @@ int main(int count, char** words) {
     StreamNetwork const pruned = network::prune(traced, {.length_m = 8 * cell_m, .cell_m = cell_m}, run).network;
     print("prune", hash_of(pruned));
     print("order", hash_of(network::order(pruned)));
-    network::Elevated const raised = network::set_heights(pruned, {}, run);
+    network::NetworkWithHeights const raised = network::set_heights(pruned, {}, run);
     print("set_heights", hash_of(raised.network));
     print_rivers(pruned, skeleton.grid(), run);
     Valley const valley = network::rasterise(raised.network, skeleton.grid()).valley;

@@ -76,7 +76,7 @@ DOORS = ("lib/thalweg/io/raster/opened_heights.cpp", "lib/thalweg/io/gdal/", "li
 # rapidcheck gives its verdict back; a test that does not look at it cannot fail.
 UNASKED = re.compile(r"^\s*rc::check\(")
 # A value that flows and that a function would change for its caller. Only the reader of recipes does so.
-CHANGED_VALUE = re.compile(r"(?<![\w<])(?:\w+::)?(Recipe|Plan|Rivers|Terrain|Assessment|Made)& ?\w*[,)]")
+CHANGED_VALUE = re.compile(r"(?<![\w<])(?:\w+::)?(Recipe|Plan|Rivers|Terrain|Assessment|MakeResult)& ?\w*[,)]")
 READER = "lib/thalweg/recipe/"
 # What opens and closes a namespace, and a type defined in one, as clang-format writes them.
 NAMESPACE = re.compile(r"(?:inline )?namespace(?: ([\w:]+))? \{|\} // namespace")

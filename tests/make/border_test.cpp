@@ -68,8 +68,8 @@ std::string recipe_of(std::string const& method, std::string const& feature) {
     return (method == "regress" ? grid_words : rivers_words) + "[skeleton]\n" + feature + "\n" + surface;
 }
 
-Made made_with(std::string const& method, std::string const& feature, std::vector<std::string> const& rows,
-               ScratchFolder const& folder) {
+MakeResult made_with(std::string const& method, std::string const& feature, std::vector<std::string> const& rows,
+                     ScratchFolder const& folder) {
     folder.write("rivers.geojson", test::geojson(test::line("[500312,5000500],[500330,5000250],[500312,5000008]", "")));
     std::string points = "x,y,z\n";
     for (std::string const& row : rows) {

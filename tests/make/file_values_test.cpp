@@ -16,13 +16,13 @@
 namespace file_values_test {
 
 using namespace thalweg;
-using make::Made;
+using make::MakeResult;
 
 namespace {
 
 /// The rivers 1 and 2 of a file, which go on as 3.
-Made terrain() {
-    Made t;
+MakeResult terrain() {
+    MakeResult t;
     t.terrain.rivers.network.planform =
         test::network_of({{0, 40}, {40, 40}, {0, 20}, {0, 0}},
                          {{.from = 0, .to = 2, .between = {}, .feature = 1}, {1, 2, {}, 2}, {2, 3, {}, 3}});
@@ -93,7 +93,7 @@ TEST(SplitAreas, UnknownStaysUnknown) {
 }
 
 TEST(UserData, ArcsHaveTheRecordOfTheirFeature) {
-    Made t = terrain();
+    MakeResult t = terrain();
     auto const user = make::user_data(t, t.terrain.rivers.network.planform);
     ASSERT_TRUE(user);
     EXPECT_EQ(user->record, (std::vector<std::int64_t>{1, 2, 3}));

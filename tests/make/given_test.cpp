@@ -60,7 +60,7 @@ void expect_balanced(GivenLength const& given) {
     }
 }
 
-double stretches_m(Made const& t) {
+double stretches_m(MakeResult const& t) {
     return t.planform.file.sources.length_m(t.terrain.rivers.network.planform);
 }
 
@@ -68,7 +68,7 @@ double stretches_m(Made const& t) {
 
 TEST(GivenLength, EveryMetreIsAccountedFor) {
     Files const files;
-    Made const t = test::made(recipe + path, files.folder());
+    MakeResult const t = test::made(recipe + path, files.folder());
     GivenLength const& given = *t.assessment.given;
     expect_balanced(given);
     EXPECT_NEAR(given.kept_m, stretches_m(t), 1e-6);
@@ -88,7 +88,7 @@ TEST(GivenLength, EveryMetreIsAccountedFor) {
 
 TEST(GivenLength, WhatIsPrunedWasAskedFor) {
     Files const files;
-    Made const t = test::made(recipe + "prune = 46\n" + path, files.folder());
+    MakeResult const t = test::made(recipe + "prune = 46\n" + path, files.folder());
     GivenLength const& given = *t.assessment.given;
     expect_balanced(given);
     EXPECT_NEAR(given.left_out(LeftOut::pruned), 1280.6 + 500.0, 0.1); // the two shortest branches
@@ -102,7 +102,7 @@ TEST(GivenLength, HeadsBesideAnotherRiverAreCut) {
                                                 line("[502030,5003000],[502400,5003100],[502400,5003590]")));
     std::string const text = recipe + "[network.lines]\npath = \"rivers.geojson\"\n[surface]\n";
     std::string const asked = recipe + "[network.lines]\npath = \"rivers.geojson\"\nkeep = 1\n[surface]\n";
-    Made const t = test::made(text, files.folder());
+    MakeResult const t = test::made(text, files.folder());
     GivenLength const& given = *t.assessment.given;
     expect_balanced(given);
     EXPECT_NEAR(given.kept_m, stretches_m(t), 1e-6);
@@ -117,7 +117,7 @@ TEST(GivenLength, HeadsNearTheEdgeAndLowerValleysAreKept) {
     Files files;
     files.write("rivers.geojson", test::geojson(line("[502000,5003590],[502000,5000010]") + "," +
                                                 line("[502200,5003000],[502200,5003590]")));
-    Made const t = test::made(recipe + "[network.lines]\npath = \"rivers.geojson\"\n[surface]\n", files.folder());
+    MakeResult const t = test::made(recipe + "[network.lines]\npath = \"rivers.geojson\"\n[surface]\n", files.folder());
     EXPECT_EQ(t.assessment.given->share(), 1.0);
     EXPECT_TRUE(t.assessment.passed());
 }
@@ -126,7 +126,7 @@ TEST(GivenLength, OfAFeatureInSeveralPartsOnlyTheShortOneIsLeftOut) {
     Files files;
     std::string const parts = "[[[502000,5003000],[502000,5000010]],[[502000,5003000],[502000,5003010]]]";
     files.write("rivers.geojson", test::geojson(test::feature("MultiLineString", parts)));
-    Made const t = test::made(recipe + path, files.folder());
+    MakeResult const t = test::made(recipe + path, files.folder());
     GivenLength const& given = *t.assessment.given;
     expect_balanced(given);
     EXPECT_NEAR(given.left_out(LeftOut::too_short), 10.0, 1e-6);
@@ -145,7 +145,7 @@ TEST(GivenAreas, OfTheFileStandBesideThoseOfTheTerrain) {
         files.write("rivers.geojson", test::geojson(line("[502000,5003000],[502000,5002000]", area(2.0)) + "," +
                                                     line("[503000,5002800],[502000,5002000]", area(4.0)) + "," +
                                                     line("[502000,5002000],[502000,5000010]", area(0.0))));
-        Made const t = test::made(text, files.folder());
+        MakeResult const t = test::made(text, files.folder());
         ASSERT_TRUE(t.assessment.given_areas) << field;
         GivenAreas const& given = *t.assessment.given_areas;
         EXPECT_EQ(given.arcs, 2);
@@ -170,7 +170,7 @@ TEST(GivenAreas, OfTheFileStandBesideThoseOfTheTerrain) {
 TEST(GivenAreas, OfWalkerCreekAreTheTerrains) {
     std::string const text =
         "[network]\nsource = \"lines\"\n[network.lines]\npath = \"walker_nhdplus.gpkg\"\n[surface]\n";
-    Made const t = test::made(text, THALWEG_SOURCE_DIR "/samples");
+    MakeResult const t = test::made(text, THALWEG_SOURCE_DIR "/samples");
     ASSERT_TRUE(t.assessment.given_areas);
     EXPECT_GE(t.assessment.given_areas->arcs, 50);
     EXPECT_GE(t.assessment.given_areas->within_factor_2, 0.9);
@@ -180,7 +180,7 @@ TEST(GivenAreas, OfWalkerCreekAreTheTerrains) {
 // 123 km of rivers on 5 x 5 or 7 x 7 cells passed every check in silence.
 TEST(GivenLength, CellsTooLargeForTheRiversAreSaid) {
     auto const said = [](std::string const& grid) {
-        Made const t = test::made(
+        MakeResult const t = test::made(
             grid + "[network]\nsource = \"lines\"\n[network.lines]\npath = \"walker_nhdplus.gpkg\"\n[surface]\n",
             THALWEG_SOURCE_DIR "/samples");
         std::vector<Finding> found;
@@ -201,8 +201,8 @@ TEST(GivenLength, CellsTooLargeForTheRiversAreSaid) {
 
 TEST(GivenLength, BendsAreNoLength) {
     Files const files;
-    Made const t = test::made(recipe + "meander = 1\n" + path, files.folder());
-    Made const straight = test::made(recipe + path, files.folder());
+    MakeResult const t = test::made(recipe + "meander = 1\n" + path, files.folder());
+    MakeResult const straight = test::made(recipe + path, files.folder());
     EXPECT_NEAR(t.assessment.given->kept_m, straight.assessment.given->kept_m, 1e-6);
     EXPECT_EQ(t.assessment.given->left_out(LeftOut::head), 0.0);
 }

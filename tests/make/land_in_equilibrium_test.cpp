@@ -90,7 +90,7 @@ public:
 };
 
 /// Law: every check holds, the DEM has no depression and needed no breaching, and rivers have its heights.
-void expect_lawful(Made const& t) {
+void expect_lawful(MakeResult const& t) {
     for (Check const& c : t.assessment.checks) {
         EXPECT_TRUE(c.ok) << c.name << " " << c.value;
     }
@@ -103,7 +103,7 @@ void expect_lawful(Made const& t) {
     }
 }
 
-Check const& check_of(Made const& t, char const* name) {
+Check const& check_of(MakeResult const& t, char const* name) {
     auto const found = std::ranges::find(t.assessment.checks, std::string_view(name), &Check::name);
     if (found == t.assessment.checks.end()) {
         throw BadInput(std::string("no check ") + name);
@@ -111,7 +111,7 @@ Check const& check_of(Made const& t, char const* name) {
     return *found;
 }
 
-double mean_of(Made const& t, std::int64_t from_column, std::int64_t to_column) {
+double mean_of(MakeResult const& t, std::int64_t from_column, std::int64_t to_column) {
     double sum = 0.0;
     std::int64_t cells = 0;
     for (std::int64_t i = 0; i < t.terrain.grid.cells(); ++i) {
@@ -143,21 +143,21 @@ TEST(LandInEquilibrium, KeysThatDoNotGoTogetherAreNamed) {
 
 TEST(LandInEquilibrium, ReliefOrMeanSlopeIsWhatWasAsked) {
     Files const files;
-    Made const sloped = made(lines + path + "[surface]\nmean_slope = 15\n", files.folder());
+    MakeResult const sloped = made(lines + path + "[surface]\nmean_slope = 15\n", files.folder());
     expect_lawful(sloped);
     EXPECT_NEAR(sloped.assessment.relief->land.slopes.mean_deg, 15.0, 0.2);
-    Made const high = made(lines + path + "[surface]\nrelief = 400\n", files.folder());
+    MakeResult const high = made(lines + path + "[surface]\nrelief = 400\n", files.folder());
     expect_lawful(high);
     EXPECT_NEAR(high.assessment.statistics->max.z - high.assessment.statistics->min.z, 400.0, 0.1);
 }
 
 TEST(LandInEquilibrium, HeightsOfRiversAreKeptOrUpperBounds) {
     Files const files;
-    Made const fixed = made(lines + "heights = \"fixed\"\nslope = 0.08\n" + path + equilibrium, files.folder());
-    Made const soft = made(lines + "heights = \"soft\"\nslope = 0.08\n" + path + equilibrium, files.folder());
-    Made const ends = made(lines + "heights = \"ends\"\nslope = 0.08\n" + path + equilibrium, files.folder());
+    MakeResult const fixed = made(lines + "heights = \"fixed\"\nslope = 0.08\n" + path + equilibrium, files.folder());
+    MakeResult const soft = made(lines + "heights = \"soft\"\nslope = 0.08\n" + path + equilibrium, files.folder());
+    MakeResult const ends = made(lines + "heights = \"ends\"\nslope = 0.08\n" + path + equilibrium, files.folder());
     expect_lawful(soft);
-    for (Made const* t : {&fixed, &ends}) {
+    for (MakeResult const* t : {&fixed, &ends}) {
         EXPECT_LE(check_of(*t, "walled_cells").value, 4.0); // heads: even slopes are not natural
         EXPECT_EQ(check_of(*t, "sources_astray").value, 0.0);
     }
@@ -171,7 +171,7 @@ TEST(LandInEquilibrium, HeightsOfRiversAreKeptOrUpperBounds) {
 
 TEST(LandInEquilibrium, LakesAreLevelAndReported) {
     Files const files;
-    Made const t = made(lines + path + "[surface]\nlakes = \"lakes.geojson\"\n", files.folder());
+    MakeResult const t = made(lines + path + "[surface]\nlakes = \"lakes.geojson\"\n", files.folder());
     expect_lawful(t);
     EXPECT_EQ(t.terrain.bed.lakes, 1);
     EXPECT_GT(t.assessment.certificate->lake_cells, 5);
@@ -181,11 +181,11 @@ TEST(LandInEquilibrium, LakesAreLevelAndReported) {
         level += t.terrain.ground.dem[i] == t.terrain.ground.dem[middle] ? 1 : 0;
     }
     EXPECT_GT(level, 100); // of 13 x 16 cells
-    Made const dry = made(lines + path + "[surface]\nlakes = \"dry.geojson\"\n", files.folder());
+    MakeResult const dry = made(lines + path + "[surface]\nlakes = \"dry.geojson\"\n", files.folder());
     expect_lawful(dry);
     EXPECT_EQ(dry.terrain.bed.lakes, 0);
     EXPECT_EQ(count(findings_of(dry), "lake_left_out"), 1);
-    Made const ponds = made(lines + path + "[surface]\nlakes = \"ponds.geojson\"\n", files.folder());
+    MakeResult const ponds = made(lines + path + "[surface]\nlakes = \"ponds.geojson\"\n", files.folder());
     EXPECT_EQ(ponds.terrain.bed.lakes, 1);
     EXPECT_EQ(count(findings_of(ponds), "lake_left_out"), 1); // a pond between cells' centres and one off the grid
     EXPECT_TRUE(std::ranges::equal(ponds.terrain.ground.dem.values(), t.terrain.ground.dem.values()));
@@ -194,7 +194,7 @@ TEST(LandInEquilibrium, LakesAreLevelAndReported) {
 namespace {
 
 /// The levels at which the cells of a polygon's inner part stand, and whether they are lake.
-std::set<float> levels_within(Made const& t, Vec2 from, Vec2 to) {
+std::set<float> levels_within(MakeResult const& t, Vec2 from, Vec2 to) {
     std::set<float> levels;
     Mask const lakes = lake_cells(t.terrain.bed.channels);
     for (std::int64_t i = 0; i < t.terrain.grid.cells(); ++i) {
@@ -233,7 +233,7 @@ TEST(LandInEquilibrium, LakesHaveTheLevelsOfTheirPolygons) {
     for (double const level : {0.25, 5.0, 19.0, 30.0, 60.0}) {
         files.write("levels.geojson",
                     geojson(lake("501850", "5001200", "502250", "5001700", "\"Level\":" + std::to_string(level))));
-        Made const t = made(keys, files.folder());
+        MakeResult const t = made(keys, files.folder());
         expect_lawful(t);
         EXPECT_EQ(levels_within(t, {501910, 5001260}, {502190, 5001640}), std::set{static_cast<float>(level)});
         EXPECT_EQ(count(findings_of(t), "lake_level"), 0);
@@ -246,8 +246,8 @@ TEST(LandInEquilibrium, LakesHaveTheLevelsOfTheirPolygons) {
         }
     }
     files.write("levels.geojson", geojson(lake("501850", "5001200", "502250", "5001700", "\"level\":null")));
-    Made const free = made(keys, files.folder());
-    Made const without = made(lines + path + "[surface]\nlakes = \"lakes.geojson\"\n", files.folder());
+    MakeResult const free = made(keys, files.folder());
+    MakeResult const without = made(lines + path + "[surface]\nlakes = \"lakes.geojson\"\n", files.folder());
     EXPECT_TRUE(std::ranges::equal(free.terrain.ground.dem.values(), without.terrain.ground.dem.values()));
     files.write("levels.geojson", geojson(lake("501850", "5001200", "502250", "5001700", "\"level\":1e9")));
     test::expect_faults({{keys, "levels.geojson\": feature 0 has the level 1000000000 m"}}, files.folder());
@@ -263,7 +263,7 @@ TEST(LandInEquilibrium, LevelsThatWaterCannotKeepAreTold) {
     std::string said;
     thalweg::Run run;
     run.log = [&said](std::string_view text) { said += std::string(text) + "\n"; };
-    Made const t = made(keys, files.folder(), run);
+    MakeResult const t = made(keys, files.folder(), run);
     expect_lawful(t);
     std::set<float> const above = levels_within(t, {501910, 5001260}, {502190, 5001640});
     EXPECT_EQ(levels_within(t, {501960, 5000460}, {502240, 5000740}), std::set{35.5F});
@@ -285,7 +285,7 @@ TEST(LandInEquilibrium, LevelsThatWaterCannotKeepAreTold) {
     EXPECT_TRUE(test::has(said, "level asked for: 7 m"));
     EXPECT_TRUE(test::has(said, "with 8 m"));
     files.write("levels.geojson", geojson(lake("501850", "5001200", "502250", "5001700", "\"level\":-12")));
-    Made const low = made(keys, files.folder());
+    MakeResult const low = made(keys, files.folder());
     expect_lawful(low);
     ASSERT_EQ(count(findings_of(low), "lake_level"), 1);
     EXPECT_TRUE(
@@ -304,7 +304,7 @@ TEST(LandInEquilibrium, LakesHaveTheirLevelsAmongGivenHeightsAndTargets) {
           lines + path + surface + "mean_slope = 15\n", lines + path + surface + "relief = 400\n",
           lines + path + surface + "edge = \"closed\"\n",
           lines + "fill_space = true\nsupport = 200\n" + path + surface}) {
-        Made const t = made(recipe, files.folder());
+        MakeResult const t = made(recipe, files.folder());
         EXPECT_EQ(levels_within(t, {501910, 5001260}, {502190, 5001640}), std::set{45.75F}) << recipe;
         EXPECT_EQ(t.assessment.pits, 0) << recipe;
         for (Check const& c : t.assessment.checks) {
@@ -319,10 +319,10 @@ TEST(LandInEquilibrium, PolygonsMaskLand) {
     files.write("west.geojson", R"({"type":"FeatureCollection","features":[)" +
                                     polygon("[2.9,45],[3.045,45],[3.045,45.3],[2.9,45.3],[2.9,45]") + "]}");
     files.write("east.geojson", geojson(lake("501200", "4990000", "510000", "5010000")));
-    Made const t = made(lines + path + "[surface]\nmask = \"west.geojson\"\n", files.folder());
+    MakeResult const t = made(lines + path + "[surface]\nmask = \"west.geojson\"\n", files.folder());
     EXPECT_EQ(t.terrain.ground.equilibrium()->edge, surface::Edge::coast);
     Raster<float> const& dem = t.terrain.ground.dem;
-    Made const dilated =
+    MakeResult const dilated =
         made(lines + path + "[surface]\nmethod = \"dilate\"\nmask = \"west.geojson\"\n", files.folder());
     // 0.045 degrees of longitude are 3536 m there.
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
@@ -333,7 +333,7 @@ TEST(LandInEquilibrium, PolygonsMaskLand) {
         }
     }
     // Rivers outside are land in equilibrium; dilation refuses them, as with rasters.
-    Made const kept = made(lines + path + "[surface]\nmask = \"east.geojson\"\n", files.folder());
+    MakeResult const kept = made(lines + path + "[surface]\nmask = \"east.geojson\"\n", files.folder());
     Cell const source = kept.terrain.grid.cell_of({501000, 5003000});
     EXPECT_FALSE(std::isnan(kept.terrain.ground.dem[source]));
     test::expect_faults(
@@ -346,12 +346,12 @@ TEST(LandInEquilibrium, PolygonsMaskLand) {
 
 TEST(LandInEquilibrium, HardRockAndUpliftMakeHighLand) {
     Files const files;
-    Made const even = made(lines + path + equilibrium, files.folder());
-    Made const rock = made(lines + path + "[surface]\nerodibility = \"rock.geojson\"\n", files.folder());
+    MakeResult const even = made(lines + path + equilibrium, files.folder());
+    MakeResult const rock = made(lines + path + "[surface]\nerodibility = \"rock.geojson\"\n", files.folder());
     files.raster("uplift.asc", [](int c, int) { return c < 84 ? 1 : 4; });
-    Made const lifted = made(lines + path + "[surface]\nuplift = \"uplift.asc\"\n", files.folder());
-    auto const contrast = [](Made const& t) { return mean_of(t, 95, 140) / mean_of(t, 0, 75); };
-    for (Made const* t : {&even, &rock, &lifted}) {
+    MakeResult const lifted = made(lines + path + "[surface]\nuplift = \"uplift.asc\"\n", files.folder());
+    auto const contrast = [](MakeResult const& t) { return mean_of(t, 95, 140) / mean_of(t, 0, 75); };
+    for (MakeResult const* t : {&even, &rock, &lifted}) {
         expect_lawful(*t);
     }
     EXPECT_GT(contrast(rock), 1.3 * contrast(even));
@@ -374,14 +374,15 @@ TEST(LandInEquilibrium, FieldsThatMakeNoSenseAreRefusedByPlace) {
 TEST(LandInEquilibrium, RiversThatEndInsideAreCarriedOrSinks) {
     Files const files;
     std::string const inland = "[network.lines]\npath = \"inland.geojson\"\n";
-    Made const carried = made(lines + inland + equilibrium, files.folder());
+    MakeResult const carried = made(lines + inland + equilibrium, files.folder());
     expect_lawful(carried);
     EXPECT_EQ(count(findings_of(carried), "carried_outlet"), 1);
-    Made const sink = made(lines + "inland = \"sink\"\n" + inland + "[surface]\ndrain = \"none\"\n", files.folder());
+    MakeResult const sink =
+        made(lines + "inland = \"sink\"\n" + inland + "[surface]\ndrain = \"none\"\n", files.folder());
     EXPECT_EQ(count(findings_of(sink), "carried_outlet"), 0);
     flow::FlowField const drainage = flow::route(sink.terrain.ground.dem);
     EXPECT_EQ(drainage.depressions.size(), 1U);
-    Made const drained = made(lines + "inland = \"sink\"\n" + inland + "[surface]\n", files.folder());
+    MakeResult const drained = made(lines + "inland = \"sink\"\n" + inland + "[surface]\n", files.folder());
     for (Check const& c : drained.assessment.checks) {
         EXPECT_TRUE(c.ok) << c.name << " " << c.value;
     }
@@ -394,9 +395,9 @@ TEST(LandInEquilibrium, GivenHeightsGetTheSlopeThatIsAsked) {
     Files const files;
     for (std::string const heights : {"fixed", "soft"}) {
         for (double const slope : {8.0, 15.0, 30.0}) {
-            Made const t = made(lines + "heights = \"" + heights + "\"\nslope = 0.03\n" + path + "[surface]\n" +
-                                    "mean_slope = " + std::to_string(slope) + "\n",
-                                files.folder());
+            MakeResult const t = made(lines + "heights = \"" + heights + "\"\nslope = 0.03\n" + path + "[surface]\n" +
+                                          "mean_slope = " + std::to_string(slope) + "\n",
+                                      files.folder());
             Check const& error = check_of(t, "mean_slope_error");
             EXPECT_TRUE(error.ok) << heights << " " << slope << ": " << error.value;
             EXPECT_NEAR(t.assessment.statistics->slope_true_deg, slope, 0.06 * slope) << heights;
@@ -406,13 +407,13 @@ TEST(LandInEquilibrium, GivenHeightsGetTheSlopeThatIsAsked) {
 
 TEST(LandInEquilibrium, ATargetThatRiversRuleOutFailsItsCheck) {
     Files const files;
-    Made const t =
+    MakeResult const t =
         made(lines + "heights = \"fixed\"\nslope = 0.2\n" + path + "[surface]\nrelief = 100\n", files.folder());
     Check const& error = check_of(t, "relief_error");
     EXPECT_FALSE(error.ok);
     EXPECT_GT(error.value, 3.0); // rivers alone span more than 600 m
     EXPECT_TRUE(count(findings_of(t), "target_missed") == 1);
-    Made const met = made(lines + path + "[surface]\nrelief = 700\n", files.folder());
+    MakeResult const met = made(lines + path + "[surface]\nrelief = 700\n", files.folder());
     EXPECT_TRUE(check_of(met, "relief_error").ok);
 }
 
@@ -420,7 +421,7 @@ TEST(LandInEquilibrium, HeightsOfAFileAreKeptAndTheLandRisesToThem) {
     Files const files;
     std::string const high = "[network.lines]\npath = \"high.geojson\"\n";
     for (std::string const heights : {"heights = \"file\"\n", ""}) { // the default, where lines carry heights
-        Made const t = made(lines + heights + high + "[surface]\n", files.folder());
+        MakeResult const t = made(lines + heights + high + "[surface]\n", files.folder());
         EXPECT_EQ(t.recipe.network->heights, Heights::file);
         EXPECT_TRUE(check_of(t, "walled_cells").ok) << check_of(t, "walled_cells").value;
         EXPECT_LT(t.assessment.given_heights->most_off_m, 20.0); // the river falls by so much within a cell
@@ -433,7 +434,8 @@ TEST(LandInEquilibrium, HeightsOfAFileAreKeptAndTheLandRisesToThem) {
     std::string said;
     thalweg::Run run;
     run.log = [&said](std::string_view line) { said += line; };
-    Made const gentle = made(lines + "[network.lines]\npath = \"falling.geojson\"\n[surface]\n", files.folder(), run);
+    MakeResult const gentle =
+        made(lines + "[network.lines]\npath = \"falling.geojson\"\n[surface]\n", files.folder(), run);
     EXPECT_FALSE(test::has(said, "warning"));
     EXPECT_TRUE(test::has(said, "given at vertices"));
     EXPECT_EQ(gentle.recipe.network->heights, Heights::file);
@@ -459,7 +461,7 @@ TEST(LandInEquilibrium, HeightsThatRiseByNoiseAreLoweredAndTold) {
     std::string said;
     thalweg::Run run;
     run.log = [&said](std::string_view line) { said += line; };
-    Made const t = made(lines + "[network.lines]\npath = \"noisy.geojson\"\n[surface]\n", files.folder(), run);
+    MakeResult const t = made(lines + "[network.lines]\npath = \"noisy.geojson\"\n[surface]\n", files.folder(), run);
     EXPECT_TRUE(test::has(said, "warning: heights in noisy.geojson rise downstream in 1 of 1 arcs", "by 3.5 m"));
     auto const& repairs = t.planform.findings;
     auto const lowered = std::ranges::find(repairs, std::string_view("lowered"), &Finding::kind);
@@ -475,16 +477,16 @@ TEST(LandInEquilibrium, HeightsThatRiseByNoiseAreLoweredAndTold) {
 TEST(LandInEquilibrium, HeightsOfAFileGetTheSlopeThatIsAsked) {
     Files const files;
     for (double const slope : {18.0, 25.0}) {
-        Made const t = made(lines + "[network.lines]\npath = \"falling.geojson\"\n[surface]\nmean_slope = " +
-                                std::to_string(slope) + "\n",
-                            files.folder());
+        MakeResult const t = made(lines + "[network.lines]\npath = \"falling.geojson\"\n[surface]\nmean_slope = " +
+                                      std::to_string(slope) + "\n",
+                                  files.folder());
         EXPECT_TRUE(check_of(t, "mean_slope_error").ok) << slope << ": " << check_of(t, "mean_slope_error").value;
     }
 }
 
 TEST(LandInEquilibrium, SideValleysAreCheckedLikeTheRest) {
     Files const files;
-    Made const t = made(lines + "fill_space = true\nsupport = 60\n" + path + equilibrium, files.folder());
+    MakeResult const t = made(lines + "fill_space = true\nsupport = 60\n" + path + equilibrium, files.folder());
     expect_lawful(t);
     EXPECT_GT(t.terrain.bed.grown, 30);
     std::int64_t grown = 0;
@@ -497,11 +499,11 @@ TEST(LandInEquilibrium, SideValleysAreCheckedLikeTheRest) {
 
 TEST(LandInEquilibrium, RiversOfAFileStayUnlessAskedToMeander) {
     Files const files;
-    Made const still = made(lines + path + equilibrium, files.folder());
-    Made const bent = made(lines + "meander = 1\n" + path + equilibrium, files.folder());
+    MakeResult const still = made(lines + path + equilibrium, files.folder());
+    MakeResult const bent = made(lines + "meander = 1\n" + path + equilibrium, files.folder());
     expect_lawful(bent);
     EXPECT_EQ(still.recipe.network->meander, 0.0);
-    auto const length = [](Made const& t) {
+    auto const length = [](MakeResult const& t) {
         auto const of_arcs = t.terrain.rivers.network.planform.length_m();
         return std::accumulate(of_arcs.begin(), of_arcs.end(), 0.0);
     };
@@ -510,7 +512,7 @@ TEST(LandInEquilibrium, RiversOfAFileStayUnlessAskedToMeander) {
 
 TEST(LandInEquilibrium, TwoRiversInOneCellBecomeOne) {
     Files const files;
-    Made const t =
+    MakeResult const t =
         made(lines + "[network.lines]\npath = \"double.geojson\"\nsnap = 0.001\n" + equilibrium, files.folder());
     EXPECT_GE(count(findings_of(t), "captured"), 1);
     for (Check const& c : t.assessment.checks) { // two rivers in one cell cannot both be followed cell for cell
@@ -521,7 +523,7 @@ TEST(LandInEquilibrium, TwoRiversInOneCellBecomeOne) {
 
 TEST(LandInEquilibrium, ARiverAlongTheBorderIsReported) {
     Files const files;
-    Made const t = made(lines + "[network.lines]\npath = \"border.geojson\"\n" + equilibrium, files.folder());
+    MakeResult const t = made(lines + "[network.lines]\npath = \"border.geojson\"\n" + equilibrium, files.folder());
     auto const found = std::ranges::find(t.assessment.findings, std::string_view("border_cell"), &Finding::kind);
     ASSERT_NE(found, t.assessment.findings.end());
     EXPECT_LT(found->where.x, 500030.0);
@@ -530,7 +532,7 @@ TEST(LandInEquilibrium, ARiverAlongTheBorderIsReported) {
 
 TEST(LandInEquilibrium, HeightsThatRiseAreLowered) {
     Files const files;
-    Made const t = made(lines + "heights = \"straight\"\nslope = 0.08\n" + path + equilibrium, files.folder());
+    MakeResult const t = made(lines + "heights = \"straight\"\nslope = 0.08\n" + path + equilibrium, files.folder());
     for (std::vector<double> const& z : t.terrain.rivers.network.arc_z) {
         EXPECT_TRUE(std::is_sorted(z.rbegin(), z.rend()));
     }
@@ -548,7 +550,7 @@ TEST(LandInEquilibrium, OtherCellsAreTheSameLand) {
     for (double const cell_m : {60.0, 30.0, 15.0}) {
         constexpr double support_m2 = 180'000.0;
         recipe.grid.cell_m = cell_m;
-        Made const land = make::make(recipe);
+        MakeResult const land = make::make(recipe);
         Raster<float> const& dem = land.terrain.ground.dem;
         measure::Relief const relief =
             measure::relief(dem, land.terrain.water.drainage, measure::statistics(dem),
@@ -564,7 +566,7 @@ TEST(LandInEquilibrium, OtherCellsAreTheSameLand) {
 }
 
 TEST(LandInEquilibrium, RiversOfAnIslandMeetAtAcuteAngles) {
-    Made const land = make::make(recipe_from(THALWEG_SOURCE_DIR "/samples/island.toml"));
+    MakeResult const land = make::make(recipe_from(THALWEG_SOURCE_DIR "/samples/island.toml"));
     measure::JunctionAngles const angles = measure::junction_angles(land.terrain.rivers.network.planform, 300.0);
     EXPECT_GT(angles.junctions, 20);
     EXPECT_GT(angles.mean_deg, 45.0);
@@ -574,9 +576,9 @@ TEST(LandInEquilibrium, RiversOfAnIslandMeetAtAcuteAngles) {
 /// Law: with closed edges a forest's basins tile the map: water leaves it at the outlets alone, from every cell.
 TEST(LandInEquilibrium, AForestTilesALargeMap) {
     Files const files;
-    Made const t = made("[grid]\nwidth = 2048\nheight = 2048\n[network]\nsource = \"forest\"\nprune = 20\n"
-                        "[surface]\nedge = \"closed\"\n",
-                        files.folder());
+    MakeResult const t = made("[grid]\nwidth = 2048\nheight = 2048\n[network]\nsource = \"forest\"\nprune = 20\n"
+                              "[surface]\nedge = \"closed\"\n",
+                              files.folder());
     expect_lawful(t);
     std::vector<std::int64_t> outlets;
     for (NodeId const n : t.terrain.rivers.network.planform.outlets()) {

@@ -41,7 +41,7 @@ std::string said(std::string const& increment) {
     return words;
 }
 
-void expect_valley_kept(Made const& t) {
+void expect_valley_kept(MakeResult const& t) {
     std::int64_t valley = 0;
     for (std::int64_t i = 0; i < t.terrain.grid.cells(); ++i) {
         ASSERT_TRUE(std::isfinite(t.terrain.ground.dem[i]));
@@ -94,7 +94,7 @@ std::string const from_points =
 } // namespace
 
 TEST(Land, OverTheTrianglesOfRivers) {
-    Made const t = made(rivers + "[surface]\nmethod = \"tin\"\n");
+    MakeResult const t = made(rivers + "[surface]\nmethod = \"tin\"\n");
     expect_valley_kept(t);
     ASSERT_TRUE(!t.terrain.ground.tin.vertices.empty());
     double low = t.terrain.rivers.network.node_z[0];
@@ -114,15 +114,15 @@ TEST(Land, OverTheTrianglesOfRivers) {
 }
 
 TEST(Land, ABaseOfTrianglesTakesTheScarpsAway) {
-    Made const paper =
+    MakeResult const paper =
         made(rivers + "[surface]\nmethod = \"dilate\"\nmetric = \"euclid\"\nrelief = 300\nbase = \"paper\"\n");
-    Made const smooth =
+    MakeResult const smooth =
         made(rivers + "[surface]\nmethod = \"dilate\"\nmetric = \"euclid\"\nrelief = 300\nbase = \"tin\"\n");
     expect_valley_kept(paper);
     expect_valley_kept(smooth);
     EXPECT_FALSE(!paper.terrain.ground.tin.vertices.empty());
     EXPECT_LT(greatest_step(smooth.terrain.ground.dem), 0.5 * greatest_step(paper.terrain.ground.dem));
-    Made const harmonic =
+    MakeResult const harmonic =
         made(rivers + "[surface]\nmethod = \"dilate\"\nmetric = \"euclid\"\nrelief = 300\n"); // the default
     expect_valley_kept(harmonic);
     EXPECT_FALSE(!harmonic.terrain.ground.tin.vertices.empty());
@@ -135,8 +135,8 @@ TEST(Land, ABaseOfTrianglesTakesTheScarpsAway) {
 }
 
 TEST(Land, ClustersStopAtTheirRadius) {
-    Made const free = made(rivers);
-    Made const bound = made(rivers + "radius = 40\n");
+    MakeResult const free = made(rivers);
+    MakeResult const bound = made(rivers + "radius = 40\n");
     EXPECT_FALSE(free.planform.statistics.wide);
     EXPECT_EQ(free.planform.statistics.particles, 3000);
     EXPECT_TRUE(bound.planform.statistics.wide);
@@ -153,7 +153,7 @@ TEST(Land, RidgesAskedForAreComparedWithThoseOfTheSurface) {
     std::string const tokunaga = "[grid]\nwidth = 200\nheight = 200\n[network]\nsource = \"tokunaga\"\n"
                                  "[network.tokunaga]\norder = 3\n[surface]\nmethod = \"diffuse\"\n";
     EXPECT_FALSE(made(tokunaga).assessment.surface_ridges);
-    Made const t = made(tokunaga + "[skeleton]\nridges = \"segments\"\n");
+    MakeResult const t = made(tokunaga + "[skeleton]\nridges = \"segments\"\n");
     ASSERT_TRUE(t.assessment.surface_ridges);
     EXPECT_GT(t.assessment.surface_ridges->ridge_cells, 500);
     measure::Agreements const& found = t.assessment.surface_ridges->extracted;
@@ -169,8 +169,8 @@ TEST(Land, RandomPointsBetweenTheRivers) {
          {std::string("method = \"dilate\"\nrelief = 200\nbase = \"tin\"\n"),
           "method = \"dilate\"\nrelief = 200\nbase = \"tin\"\n" + detail, std::string("method = \"tin\"\n"),
           "method = \"tin\"\n" + detail, std::string("method = \"diffuse\"\n")}) {
-        Made const plain = made(rivers + "[surface]\n" + how);
-        Made const with = made(rivers + skeleton + "[surface]\n" + how);
+        MakeResult const plain = made(rivers + "[surface]\n" + how);
+        MakeResult const with = made(rivers + skeleton + "[surface]\n" + how);
         expect_valley_kept(with);
         ASSERT_TRUE(with.assessment.certificate) << how;
         EXPECT_TRUE(test::same_bits(plain.terrain.bed.valley.z, with.terrain.bed.valley.z))
@@ -180,7 +180,7 @@ TEST(Land, RandomPointsBetweenTheRivers) {
         }
         EXPECT_GT(with.assessment.statistics->mean, plain.assessment.statistics->mean + 1.0) << how;
     }
-    Made const crowded = made(rivers + "[skeleton]\nscatter = 600\nspacing = 5\n[surface]\nmethod = \"tin\"\n");
+    MakeResult const crowded = made(rivers + "[skeleton]\nscatter = 600\nspacing = 5\n[surface]\nmethod = \"tin\"\n");
     EXPECT_FALSE(crowded.assessment.passed()); // with as many as have room, which is reported
     for (Check const& c : crowded.assessment.checks) {
         EXPECT_EQ(c.ok, c.name != "points_missing") << c.name;
@@ -189,8 +189,8 @@ TEST(Land, RandomPointsBetweenTheRivers) {
 
 TEST(Land, DetailLeavesTheRiversAlone) {
     std::string const surface = "[surface]\nmethod = \"dilate\"\nmetric = \"euclid\"\nrelief = 300\n";
-    Made const smooth = made(rivers + surface);
-    Made const rough = made(rivers + surface + "[detail]\nsigma = 20\nlevels = 4\n");
+    MakeResult const smooth = made(rivers + surface);
+    MakeResult const rough = made(rivers + surface + "[detail]\nsigma = 20\nlevels = 4\n");
     expect_valley_kept(rough);
     double square = 0.0;
     for (std::int64_t i = 0; i < smooth.terrain.grid.cells(); ++i) {
@@ -204,8 +204,8 @@ TEST(Land, DetailLeavesTheRiversAlone) {
 }
 
 TEST(Land, TheSkeletonsTrianglesAloneChangeNothing) {
-    Made const plain = made(rivers + "[surface]\n");
-    Made const with = made(rivers + "[skeleton]\ntin = true\n[surface]\n");
+    MakeResult const plain = made(rivers + "[surface]\n");
+    MakeResult const with = made(rivers + "[skeleton]\ntin = true\n[surface]\n");
     EXPECT_TRUE(!with.terrain.ground.tin.vertices.empty());
     EXPECT_TRUE(test::same_bits(plain.terrain.ground.dem, with.terrain.ground.dem));
 }
@@ -225,20 +225,20 @@ TEST(Land, ThroughPoints) {
     PointsFile const file;
     for (char const* how : {"", "[surface]\nmethod = \"tin\"\ninterpolation = \"natural\"\n",
                             "[surface]\nmethod = \"regress\"\n", "[detail]\nlevels = 2\n"}) {
-        Made const t = made(from_points + how, file.folder());
+        MakeResult const t = made(from_points + how, file.folder());
         EXPECT_TRUE(t.assessment.passed());
         EXPECT_EQ(t.assessment.statistics->nodata, 0);
         EXPECT_NEAR(t.assessment.statistics->mean, 155.0, 8.0) << how;
         EXPECT_EQ(t.recipe.grid.crs, "EPSG:32631");
     }
-    Made const framed = made("[skeleton]\npoints = \"points.csv\"\n", file.folder());
+    MakeResult const framed = made("[skeleton]\npoints = \"points.csv\"\n", file.folder());
     EXPECT_GE(framed.terrain.grid.width, 60);
     EXPECT_GE(framed.terrain.grid.height, 40);
 }
 
 TEST(Land, StatisticsWithGivenPointsKept) {
     PointsFile const file;
-    Made const t =
+    MakeResult const t =
         made(from_points + "[statistics]\nskeleton = \"points\"\nstd = 30\ndimension = 2.3\n", file.folder());
     EXPECT_TRUE(t.assessment.passed());
     EXPECT_NEAR(t.assessment.statistics->std, 30.0, 0.3);
@@ -269,7 +269,7 @@ TEST(Land, EveryPriorMeetsTable4) {
                             "skeleton = \"points\"\n[skeleton]\nscatter = 180\nspacing = 3\n[detail]\nlevels = 2\n",
                             "skeleton = \"points\"\n[skeleton]\nscatter = 180\n[surface]\nmethod = \"regress\"\n"
                             "[detail]\nlevels = 3\n"}) {
-        Made const t = made(table + how);
+        MakeResult const t = made(table + how);
         EXPECT_TRUE(t.assessment.passed()) << how;
         EXPECT_LE(t.terrain.ground.matched->fine_forms_cells, 1.0) << how;
         EXPECT_EQ(t.assessment.statistics->max.z, 1038.0);

@@ -123,7 +123,7 @@ TEST(Laws, TheDemsRiversAreAsLongAsTheNetwork) {
     recipe.grid.height = 120;
     recipe.network->dla.particles = 3000;
     recipe.network->prune_cells = 8.0;
-    Made const terrain = make::make(recipe);
+    MakeResult const terrain = make::make(recipe);
     ASSERT_TRUE(terrain.assessment.laws.network && terrain.assessment.laws.dem);
     DemLaws const& dem = *terrain.assessment.laws.dem;
     EXPECT_TRUE(dem.as_dense);
@@ -137,7 +137,7 @@ TEST(Laws, TheDemsRiversAreAsLongAsTheNetwork) {
               static_cast<double>(dem.support_cells) * terrain.terrain.grid.cell_m * terrain.terrain.grid.cell_m);
 
     recipe.surface.reset();
-    Made const rivers = make::make(recipe);
+    MakeResult const rivers = make::make(recipe);
     EXPECT_TRUE(rivers.assessment.laws.network);
     EXPECT_FALSE(rivers.assessment.laws.dem);
 }

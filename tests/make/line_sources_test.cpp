@@ -183,7 +183,7 @@ TEST(LineSources, JoinedAndShortenedArcs) {
 TEST(LineSources, WhatIsDrawnBeyondTheFileIsInNoStretch) {
     StreamNetwork net = test::network_of({{50, 90}, {50, 50}}, {{0, 1, {{50, 70}}, 1}});
     LineSources const sources(net, {{{1, 0.0, 40.0}}});
-    network::Carried const carried = network::carry_outlets(net, Grid{20, 20, 5.0, 0.0, 100.0, "EPSG:32631"});
+    network::CarriedNetwork const carried = network::carry_outlets(net, Grid{20, 20, 5.0, 0.0, 100.0, "EPSG:32631"});
     ASSERT_GT(carried.network.length_m(0), 50.0);
     expect_same(sources.of(carried.network), {{{1, 0.0, 40.0}}});
     // Nor when confluences are split afterwards.
@@ -199,7 +199,7 @@ TEST(LineSources, MeanderedRiversAreCovered) {
         Stretches const drawn = stretches_in(net, seed);
         Grid const grid{100, 480, 10.0, -500.0, 4400.0, "EPSG:32631"};
         std::vector<double> const area_m2(net.arc_count(), 1e6);
-        network::Meandered const bent = network::meander(net, grid, area_m2, {.gain = 2.0, .seed = seed});
+        network::MeanderedNetwork const bent = network::meander(net, grid, area_m2, {.gain = 2.0, .seed = seed});
         RC_PRE(bent.vertices > 0);
         LineSources const sources = LineSources(net, drawn).bent(net, bent.network);
         Stretches const is = sources.of(bent.network);

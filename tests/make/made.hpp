@@ -13,7 +13,8 @@
 namespace test {
 
 /// What a recipe makes whose files lie in a folder.
-inline thalweg::make::Made made(std::string const& toml, std::string const& folder = "", thalweg::Run const& run = {}) {
+inline thalweg::make::MakeResult made(std::string const& toml, std::string const& folder = "",
+                                      thalweg::Run const& run = {}) {
     thalweg::recipe::Recipe recipe = thalweg::recipe::read_recipe(toml, "test");
     recipe.folder = folder;
     return thalweg::make::make(recipe, run);

@@ -34,7 +34,7 @@ void expect_rivers_serve_both(std::string const& one, std::string const& two) {
     Planform const rivers = make_planform(resolve(recipe_of_text(rivers_of + one)));
     for (std::string const& surface : {one, two}) {
         Recipe const recipe = recipe_of_text(rivers_of + surface);
-        Made const whole = make::make(recipe);
+        MakeResult const whole = make::make(recipe);
         Plan const plan = resolve(recipe);
         Terrain const terrain = make_terrain(plan, rivers);
         Assessment const assessment = assess(plan, rivers, terrain);
@@ -55,7 +55,7 @@ TEST(Make, RiversServeTwoTerrains) {
 }
 
 TEST(Make, RiversAloneHaveNoTerrain) {
-    Made const made = make::make(recipe_of_text(rivers_of));
+    MakeResult const made = make::make(recipe_of_text(rivers_of));
     EXPECT_FALSE(made.terrain.has_surface());
     EXPECT_FALSE(made.terrain.has_surface());
     EXPECT_FALSE(made.assessment.given);
@@ -64,7 +64,7 @@ TEST(Make, RiversAloneHaveNoTerrain) {
 }
 
 TEST(Make, LandAloneHasNoRivers) {
-    Made const made =
+    MakeResult const made =
         make::make(recipe_of_text("[grid]\nwidth = 64\nheight = 48\n[statistics]\nmean = 100\nstd = 10\n"));
     EXPECT_EQ(made.planform.network.arc_count(), 0U);
     EXPECT_EQ(made.terrain.grid, made.plan.grid);
@@ -73,7 +73,7 @@ TEST(Make, LandAloneHasNoRivers) {
 
 // Each value has its own timings; together they are those of the run.
 TEST(Make, TimingsAreThoseOfTheValues) {
-    Made const made = make::make(recipe_of_text(rivers_of + "[surface]\n"));
+    MakeResult const made = make::make(recipe_of_text(rivers_of + "[surface]\n"));
     EXPECT_EQ(made.plan.timings_s.front().stage, "grow");
     EXPECT_EQ(made.planform.timings_s.front().stage, "embed");
     EXPECT_EQ(made.terrain.notes.timings_s.front().stage, "channels");
@@ -127,7 +127,7 @@ TEST(OutputFiles, AreThoseThatAreAskedFor) {
     ScratchFolder const scratch;
     std::string const surface = "[surface]\n[output]\naccumulation = true\nfiles = ";
     Recipe recipe = recipe_of_text(rivers_of + surface + "[\"network\", \"dem\"]\n");
-    Made const made = make_folder(recipe, scratch / "two");
+    MakeResult const made = make_folder(recipe, scratch / "two");
     EXPECT_FALSE(made.assessment.catchments);
     EXPECT_FALSE(made.assessment.water_areas);
     EXPECT_EQ(files_in(scratch / "two"),

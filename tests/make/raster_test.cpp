@@ -74,7 +74,7 @@ protected:
         test::write(folder_ / "rivers.geojson", rivers);
     }
 
-    Made of(std::string const& source, std::string const& more = "", std::string const& before = "") {
+    MakeResult of(std::string const& source, std::string const& more = "", std::string const& before = "") {
         said_.clear();
         thalweg::Run run;
         run.log = [this](std::string_view line) { said_ += std::string(line) + "\n"; };
@@ -105,7 +105,7 @@ std::int64_t without_data(Raster<float> const& dem) {
 }
 
 /// Rivers lie in the DEM or below, and it drains by them.
-void expect_drained_by_rivers(Made const& t) {
+void expect_drained_by_rivers(MakeResult const& t) {
     EXPECT_TRUE(t.assessment.passed()) << checks_json(t.assessment.checks);
     EXPECT_EQ(t.assessment.pits, 0);
     std::int64_t cells = 0;
@@ -127,7 +127,7 @@ void expect_drained_by_rivers(Made const& t) {
 
 TEST_F(Rasters, AreTheTerrainBitForBit) {
     for (std::string const name : {"hills.tif", "coast.tif"}) {
-        Made const t = of(name);
+        MakeResult const t = of(name);
         expect_same_bits(t.terrain.ground.dem, file(name));
         EXPECT_TRUE(t.assessment.passed());
         EXPECT_FALSE(t.terrain.water.is_conditioned);
@@ -140,16 +140,16 @@ TEST_F(Rasters, AreTheTerrainBitForBit) {
 }
 
 TEST_F(Rasters, AWindowOfTheSameCellsIsCutOut) {
-    Made const t = of("hills.tif", "", "[grid]\nwidth = 10\nheight = 8\norigin = [500090, 4999880]\n");
+    MakeResult const t = of("hills.tif", "", "[grid]\nwidth = 10\nheight = 8\norigin = [500090, 4999880]\n");
     Raster<float> const all = file("hills.tif");
     for (std::int64_t i = 0; i < t.terrain.grid.cells(); ++i) {
         Cell const c = t.terrain.grid.at(i);
         EXPECT_EQ(t.terrain.ground.dem[i], (all[Cell{c.col + 3, c.row + 4}]));
     }
     EXPECT_FALSE(has(said_, "resampled"));
-    Made const wider = of("hills.tif", "", "[grid]\nwidth = 42\nheight = 30\norigin = [499970, 5000000]\n");
+    MakeResult const wider = of("hills.tif", "", "[grid]\nwidth = 42\nheight = 30\norigin = [499970, 5000000]\n");
     EXPECT_EQ(without_data(wider.terrain.ground.dem), 2 * 30);
-    Made const rest = of("hills.tif", "", "[grid]\norigin = [500090, 4999880]\n");
+    MakeResult const rest = of("hills.tif", "", "[grid]\norigin = [500090, 4999880]\n");
     EXPECT_EQ(rest.terrain.grid.width, 37);
     EXPECT_EQ(rest.terrain.grid.height, 26);
 }
@@ -163,7 +163,7 @@ TEST_F(Rasters, OtherCellsAreResampled) {
     for (auto const& [grid, width, height] :
          {Case{"cell = 60\n", 20, 15}, Case{"cell = 7\n", 171, 128}, Case{"origin = [500010, 4999990]\n", 39, 29},
           Case{"width = 20\nheight = 10\norigin = [500011, 4999900]\n", 20, 10}}) {
-        Made const t = of("plane.tif", "", "[grid]\n" + grid);
+        MakeResult const t = of("plane.tif", "", "[grid]\n" + grid);
         EXPECT_EQ(t.terrain.grid.width, width) << grid;
         EXPECT_EQ(t.terrain.grid.height, height) << grid;
         EXPECT_TRUE(has(said_, "plane.tif is resampled from 40x30 cells of 30 in EPSG:32631 to ")) << grid;
@@ -177,15 +177,15 @@ TEST_F(Rasters, OtherCellsAreResampled) {
 }
 
 TEST_F(Rasters, OtherCoordinateSystemsAreReprojected) {
-    Made const degrees = of("degrees.tif");
+    MakeResult const degrees = of("degrees.tif");
     EXPECT_EQ(degrees.terrain.grid.crs, "EPSG:32632");
     EXPECT_NEAR(degrees.terrain.grid.cell_m, 89.3, 1.0);
     EXPECT_TRUE(has(said_, "reprojected into EPSG:32632", "resampled from 40x30 cells of 0.001 in EPSG:4326 to"));
-    Made const zone = of("hills.tif", "", "[grid]\ncrs = \"EPSG:32632\"\ncell = 30\n");
+    MakeResult const zone = of("hills.tif", "", "[grid]\ncrs = \"EPSG:32632\"\ncell = 30\n");
     EXPECT_EQ(zone.terrain.grid.crs, "EPSG:32632");
     EXPECT_GT(zone.terrain.grid.cells(), 40 * 30);
     EXPECT_NEAR(zone.assessment.statistics->mean, of("hills.tif").assessment.statistics->mean, 2.0);
-    Made const nowhere = of("nowhere.tif");
+    MakeResult const nowhere = of("nowhere.tif");
     EXPECT_EQ(nowhere.terrain.grid, (Grid{40, 30, 10.0, 0.0, 300.0, "EPSG:32631"}));
     EXPECT_TRUE(has(said_, "nowhere.tif has no coordinate system"));
 }
@@ -194,7 +194,7 @@ TEST_F(Rasters, AreDrainedWhereThatIsAskedFor) {
     EXPECT_GT(of("hills.tif").assessment.pits, 0);
     for (std::string const name : {"hills.tif", "coast.tif"}) {
         for (std::string const drain : {"carve", "fill"}) {
-            Made const t = of(name, "drain = \"" + drain + "\"\n");
+            MakeResult const t = of(name, "drain = \"" + drain + "\"\n");
             EXPECT_EQ(t.assessment.pits, 0) << name << drain;
             EXPECT_TRUE(t.assessment.passed()) << name << drain;
             EXPECT_EQ(without_data(t.terrain.ground.dem), without_data(file(name)));
@@ -203,29 +203,29 @@ TEST_F(Rasters, AreDrainedWhereThatIsAskedFor) {
 }
 
 TEST_F(Rasters, RiversAreCutIntoThem) {
-    Made const t = of("hills.tif", "", lines());
+    MakeResult const t = of("hills.tif", "", lines());
     expect_drained_by_rivers(t);
     EXPECT_EQ(t.recipe.network->heights, Heights::automatic);
     EXPECT_EQ(t.recipe.surface->drain, flow::Conditioning::carve);
     EXPECT_GT(std::ranges::min(t.terrain.rivers.network.node_z), 20.0) << "not the heights of the file";
     EXPECT_GT(t.terrain.bed.heights.lowered_cells, 0);
-    Made const bare = of("hills.tif", "drain = \"none\"\n", lines());
+    MakeResult const bare = of("hills.tif", "drain = \"none\"\n", lines());
     for (std::int64_t i = 0; i < bare.terrain.grid.cells(); ++i) {
         EXPECT_TRUE(!std::isnan(bare.terrain.bed.valley.z[i]) || bare.terrain.ground.dem[i] == bare.plan.raster[i]);
     }
-    Made const of_file = of("hills.tif", "", lines("heights = \"file\"\n"));
+    MakeResult const of_file = of("hills.tif", "", lines("heights = \"file\"\n"));
     EXPECT_LE(std::ranges::max(of_file.terrain.rivers.network.node_z), 9.0);
 }
 
 TEST_F(Rasters, GrownRiversAreLaidOnThem) {
     std::string const forest = "[network]\nsource = \"forest\"\nprune = 4\n";
     expect_drained_by_rivers(of("hills.tif", "", forest));
-    Made const t = of("coast.tif", "", forest);
+    MakeResult const t = of("coast.tif", "", forest);
     expect_drained_by_rivers(t);
     EXPECT_EQ(without_data(t.terrain.ground.dem), without_data(file("coast.tif"))) << "the sea stays sea";
     expect_drained_by_rivers(of("hills.tif", "", "[network]\nprune = 3\n[network.dla]\nparticles = 400\n"));
     expect_drained_by_rivers(of("hills.tif", "", "[network]\nsource = \"tokunaga\"\n[network.tokunaga]\norder = 2\n"));
-    Made const bends = of("hills.tif", "", "[network]\nsource = \"forest\"\nprune = 4\nmeander = 0.5\n");
+    MakeResult const bends = of("hills.tif", "", "[network]\nsource = \"forest\"\nprune = 4\nmeander = 0.5\n");
     expect_drained_by_rivers(bends);
 }
 
@@ -233,10 +233,10 @@ TEST_F(Rasters, TakeMasksPatchesAndDetail) {
     write_ascii_grid(folder_ / "mask.asc", {40, 30, 30, 500000, 4999100}, [](int c, int) { return c < 30 ? 1 : 0; });
     write_ascii_grid(folder_ / "patch.asc", {10, 10, 30, 500300, 4999400}, [](int c, int r) { return 5 * c * r; });
     EXPECT_EQ(without_data(of("hills.tif", "mask = \"mask.asc\"\n").terrain.ground.dem), 10 * 30);
-    Made const patched = of("hills.tif", "[[patch]]\nsource = \"patch.asc\"\n");
+    MakeResult const patched = of("hills.tif", "[[patch]]\nsource = \"patch.asc\"\n");
     EXPECT_EQ(patched.terrain.ground.patches.at(0).cells, 8 * 8) << "but for its border";
     for (std::string const name : {"hills.tif", "coast.tif"}) {
-        Made const fine = of(name, "[detail]\nlevels = 2\n");
+        MakeResult const fine = of(name, "[detail]\nlevels = 2\n");
         Raster<float> const given = file(name);
         EXPECT_EQ(without_data(fine.terrain.ground.dem), without_data(given));
         std::int64_t other = 0;
@@ -256,7 +256,7 @@ TEST_F(Rasters, StagesAreAsForecast) {
          {std::string(), lines(), std::string("[network]\nsource = \"forest\"\nprune = 4\n")}) {
         Recipe recipe = read_recipe(network + on_hills, "r.toml");
         recipe.folder = folder();
-        Made const t = make::make(recipe);
+        MakeResult const t = make::make(recipe);
         std::vector<std::string> stages;
         for (StageTime const& time : timings_of(t)) {
             stages.push_back(time.stage);
@@ -269,10 +269,10 @@ TEST_F(Rasters, StagesAreAsForecast) {
 TEST_F(Rasters, ARecipeSettlesToTheSameTerrain) {
     for (std::string const& grid :
          {std::string(), std::string("[grid]\ncell = 45\n"), std::string("[grid]\ncrs = \"EPSG:32632\"\n")}) {
-        Made const first = of("coast.tif", "", grid);
+        MakeResult const first = of("coast.tif", "", grid);
         Recipe recipe = read_recipe(write_recipe(first.recipe), "again.toml");
         recipe.folder = folder();
-        Made const again = make::make(recipe);
+        MakeResult const again = make::make(recipe);
         expect_same_bits(first.terrain.ground.dem, again.terrain.ground.dem);
         EXPECT_EQ(write_recipe(again.recipe), write_recipe(first.recipe));
     }
@@ -324,7 +324,7 @@ TEST_F(Rasters, WhatDoesNotFitIsRefusedInWords) {
     written(folder_ / "hole.tif", {.epsg = 32631, .frame = place, .nodata = -9999.0},
             [](int c, int r) { return c > 10 && c < 25 && r == 20 ? -9999.0 : hills(c, r); });
     EXPECT_TRUE(has(fault_of(source("hole.tif") + lines()), "has no height at", "grid.clip = true"));
-    Made const t = of("hole.tif", "", "[grid]\nclip = true\n" + lines());
+    MakeResult const t = of("hole.tif", "", "[grid]\nclip = true\n" + lines());
     expect_drained_by_rivers(t);
     EXPECT_EQ(without_data(t.terrain.ground.dem), 14);
     EXPECT_EQ(t.terrain.rivers.network.planform.outlets().size(), 2U);

@@ -178,7 +178,7 @@ struct Wrong {
     }
 };
 
-Wrong wrong_of(KnownRivers const& known, network::Imported const& imported) {
+Wrong wrong_of(KnownRivers const& known, network::ImportedNetwork const& imported) {
     std::set<test::Step> downstream;
     for (RiverLine const& line : known.lines.lines) {
         for (std::size_t i = 1; i < line.vertices.size(); ++i) {
@@ -271,7 +271,7 @@ TEST(RiverDirections, AColumnThatIsRightIsNotDoubted) {
             lines.lines[l].runs =
                 in_plan(lines.lines[l].vertices[0]) == in_plan(known.lines.lines[l].vertices[0]) ? 1 : -1;
         }
-        network::Imported const imported = network::import_lines(lines);
+        network::ImportedNetwork const imported = network::import_lines(lines);
         EXPECT_EQ(wrong_of(known, imported).wrong_m, 0.0) << known.name;
         for (Finding const& doubt : imported.directions.doubts) {
             ADD_FAILURE() << known.name << ": " << doubt.text;
@@ -324,7 +324,7 @@ TEST(RiverDirections, AColumnThatIsAThirdWrong) {
                 lines.lines[l].runs = -lines.lines[l].runs;
             }
         }
-        network::Imported const imported = network::import_lines(lines);
+        network::ImportedNetwork const imported = network::import_lines(lines);
         EXPECT_EQ(test::count(imported.directions.doubts, "contradicted_direction"), 1) << known.name;
         Wrong const wrong = wrong_of(known, imported);
         std::printf("column: %s %.2f %%\n", known.name.c_str(), 100.0 * wrong.share());
@@ -357,7 +357,7 @@ std::string from_the_mouth(std::set<std::size_t> const& turned = {}) {
 constexpr double from_the_mouth_m = 27668.0;
 
 struct Logged {
-    make::Made made;
+    make::MakeResult made;
     std::vector<std::string> log;
 
     std::vector<std::string> about(std::string const& words) const {

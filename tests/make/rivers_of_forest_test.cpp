@@ -59,7 +59,7 @@ private:
 };
 
 /// Law: land has heights and the sea has none; every outlet lies on the coast or the grid's border; every check holds.
-void expect_lawful(Made const& t) {
+void expect_lawful(MakeResult const& t) {
     EXPECT_TRUE(t.assessment.passed());
     auto const is_land = [&](Cell c) {
         return t.terrain.grid.contains(c) && (t.terrain.ground.land.values().empty() || t.terrain.ground.land[c] != 0);
@@ -97,7 +97,7 @@ TEST(PlanForest, KeysThatDoNotGoTogetherAreNamed) {
 }
 
 TEST(PlanForest, TheWholeGridDrainsOverItsBorder) {
-    Made const t = made(small_grid + forest + dilated);
+    MakeResult const t = made(small_grid + forest + dilated);
     expect_lawful(t);
     EXPECT_TRUE(t.terrain.ground.land.values().empty());
     EXPECT_TRUE(t.planform.statistics.full);
@@ -106,15 +106,16 @@ TEST(PlanForest, TheWholeGridDrainsOverItsBorder) {
 
 TEST(PlanForest, AnIslandIsDiffusedAndTriangulatedToo) {
     for (char const* method : {"dilate", "diffuse", "tin"}) {
-        Made const t = made(small_grid + forest + "[network.forest]\nshape = \"island\"\n[surface]\nmethod = \"" +
-                            std::string(method) + "\"\n");
+        MakeResult const t = made(small_grid + forest + "[network.forest]\nshape = \"island\"\n[surface]\nmethod = \"" +
+                                  std::string(method) + "\"\n");
         expect_lawful(t);
         EXPECT_EQ(t.terrain.ground.land[0], 0) << method;
     }
 }
 
 TEST(PlanForest, AnIslandComesIntoEquilibrium) {
-    Made const t = made(small_grid + forest + "[network.forest]\nshape = \"island\"\n[surface]\nedge = \"coast\"\n");
+    MakeResult const t =
+        made(small_grid + forest + "[network.forest]\nshape = \"island\"\n[surface]\nedge = \"coast\"\n");
     expect_lawful(t);
     EXPECT_EQ(t.assessment.pits, 0);
     EXPECT_EQ(t.recipe.network->meander, 0.3);
@@ -124,7 +125,7 @@ TEST(PlanForest, AnIslandComesIntoEquilibrium) {
 
 TEST(PlanForest, ARegionsPolygonsAreTheLandAndFrameTheGrid) {
     Files const files;
-    Made const t =
+    MakeResult const t =
         made(forest + "prune = 0\n[network.forest]\nregion = \"region.geojson\"\n" + dilated, files.folder());
     expect_lawful(t);
     EXPECT_EQ(t.terrain.grid.crs, "EPSG:32631");
@@ -150,7 +151,7 @@ TEST(PlanForest, PointsMoveToTheCoast) {
     Files const files;
     std::string const recipe =
         forest + "prune = 0\n[network.forest]\nregion = \"region.geojson\"\noutlets = \"points.csv\"\n";
-    Made const t = made(recipe + dilated, files.folder());
+    MakeResult const t = made(recipe + dilated, files.folder());
     expect_lawful(t);
     EXPECT_EQ(count(findings_of(t), "moved_outlet"), 1);
     EXPECT_EQ(count(findings_of(t), "added_outlet"), 1); // the islet's
@@ -160,21 +161,21 @@ TEST(PlanForest, PointsMoveToTheCoast) {
 TEST(PlanForest, LinesAndPolygonsMarkTheCoastWithOutlets) {
     Files const files;
     std::string const region = forest + "prune = 0\n[network.forest]\nregion = \"region.geojson\"\nseeds = 4\n";
-    Made const west = made(region + "outlets = \"west.geojson\"\n" + dilated, files.folder());
+    MakeResult const west = made(region + "outlets = \"west.geojson\"\n" + dilated, files.folder());
     expect_lawful(west);
     std::int64_t on_line = 0;
     for (NodeId const n : west.terrain.rivers.network.planform.outlets()) {
         on_line += west.terrain.rivers.network.planform.node(n).at.x < 500400 ? 1 : 0;
     }
     EXPECT_EQ(on_line, 4);
-    Made const lake = made(region + "outlets = \"lake.geojson\"\n" + dilated, files.folder());
+    MakeResult const lake = made(region + "outlets = \"lake.geojson\"\n" + dilated, files.folder());
     expect_lawful(lake);
     EXPECT_EQ(lake.terrain.ground.land[lake.terrain.grid.cell_of({501200, 5001200})], 0);
 }
 
 TEST(PlanForest, OutletsThatArePrunedAwayAreReported) {
-    Made const all = made(small_grid + forest + "prune = 0\n" + dilated);
-    Made const some = made(small_grid + forest + "prune = 40\n" + dilated);
+    MakeResult const all = made(small_grid + forest + "prune = 0\n" + dilated);
+    MakeResult const some = made(small_grid + forest + "prune = 40\n" + dilated);
     std::size_t const before = all.terrain.rivers.network.planform.outlets().size();
     std::size_t const after = some.terrain.rivers.network.planform.outlets().size();
     EXPECT_LT(after, before);

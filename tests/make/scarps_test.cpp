@@ -21,7 +21,7 @@ namespace {
 
 /// The network of samples/dla.toml in the first paper's units: cells of 1, valleys as steep as in the paper, increments
 /// of 0.1 a dilation.
-Made on(Base base, double slope) {
+MakeResult on(Base base, double slope) {
     std::ifstream file(THALWEG_SOURCE_DIR "/samples/dla.toml");
     Recipe recipe = read_recipe(std::string(std::istreambuf_iterator<char>(file), {}), "dla.toml");
     recipe.grid.cell_m = 1.0;
@@ -57,8 +57,8 @@ Scarps scarps_of(Raster<float> const& z) {
 
 TEST(Scarps, TheHarmonicBaseLeavesNone) {
     constexpr double papers_slope = 0.087;
-    Made const before = on(Base::paper, papers_slope);
-    Made const after = on(Base::harmonic, papers_slope);
+    MakeResult const before = on(Base::paper, papers_slope);
+    MakeResult const after = on(Base::harmonic, papers_slope);
     ASSERT_EQ(after.terrain.grid.width, 1024);
     ASSERT_EQ(after.terrain.grid.height, 1024);
     for (std::int64_t i = 0; i < after.terrain.bed.valley.z.cells(); ++i) {

@@ -183,7 +183,7 @@ class Arguments(unittest.TestCase):
             (lambda: thalweg.terrain.BlendIntoParams(source=valley()), TypeError, "source"),
             (lambda: thalweg.cells_along([[0, 0], [1, 1]], {1: 2}), TypeError, "there is no argument"),
             (lambda: thalweg.flow.condition(valley(), valley(), method="\ud800"), thalweg.BadParameter, "must be one of"),
-            (lambda: thalweg.terrain.Made(), TypeError, "No constructor|no constructor"),
+            (lambda: thalweg.terrain.MakeResult(), TypeError, "No constructor|no constructor"),
             (lambda: thalweg.measure.perched(valley(), [64 * 64], rise_m=1.0), thalweg.BadInput, "cell 4096 is not one of"),
             (lambda: thalweg.io.read_rivers(path=3), TypeError, "path: takes a path, a GeoDataFrame"),
             (lambda: thalweg.draw.lines([[[0, 0], [1, 1]]], title=3), TypeError, "title is 3; it must be a text"),
@@ -378,7 +378,7 @@ class Arguments(unittest.TestCase):
             with self.subTest(type(record).__name__):
                 same(pickle.loads(pickle.dumps(record)), record)
                 same(copy.deepcopy(record), record)
-        with self.assertRaisesRegex(TypeError, "Made cannot be pickled, as only the library makes one"):
+        with self.assertRaisesRegex(TypeError, "MakeResult cannot be pickled, as only the library makes one"):
             pickle.dumps(thalweg.make({"grid": {"width": 64, "height": 64}}).made)
         # Of every kind that can be made of nothing.
         count = 0

@@ -19,7 +19,7 @@
 #include <support.hpp>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/kept.hpp>
+#include <thalweg/core/run/result_cache.hpp>
 #include <thalweg/recipe/recipe_keys.hpp>
 #include <thalweg/report/report.hpp>
 
@@ -306,7 +306,7 @@ void add_text(Fnv& hash, std::string const& text) {
 }
 
 /// dem.tif, the network and what it is held to, as values.
-std::string digest(Made const& t) {
+std::string digest(MakeResult const& t) {
     Fnv hash;
     hash.add(t.terrain.grid.width);
     hash.add(t.terrain.grid.height);
@@ -342,7 +342,7 @@ std::string digest(Made const& t) {
 }
 
 /// All files but those that hold the recipe itself.
-std::string digest_of_files(Made const& t) {
+std::string digest_of_files(MakeResult const& t) {
     ScratchFolder const folder;
     Fnv hash;
     for (std::string const& name : write_terrain(t, folder / "out", io::Existing::refuse)) {
@@ -360,11 +360,11 @@ struct Outcome {
 };
 
 Outcome outcome(Recipe const& recipe, bool in_files) {
-    static Kept kept(256'000'000);
+    static ResultCache kept(256'000'000);
     Run run;
-    run.kept = &kept; // a stage that is not made again for a key that it reads changes nothing
+    run.cache = &kept; // a stage that is not made again for a key that it reads changes nothing
     try {
-        Made const t = make::make(recipe, run);
+        MakeResult const t = make::make(recipe, run);
         return {in_files ? digest_of_files(t) : digest(t), ""};
     } catch (Error const& fault) {
         return {"", fault.what()};

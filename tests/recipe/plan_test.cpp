@@ -41,7 +41,7 @@ void expect_same_lines(RiverLines const& a, RiverLines const& b) {
 
 void expect_as_forecast(Recipe const& recipe, std::string const& name) {
     Forecast const said = forecast(recipe);
-    Made const made = make::make(recipe);
+    MakeResult const made = make::make(recipe);
     std::vector<std::string> stages;
     for (StageTime const& time : timings_of(made)) {
         stages.push_back(time.stage);

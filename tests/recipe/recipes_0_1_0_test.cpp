@@ -33,7 +33,7 @@ std::string hash_of(Raster<float> const& raster) {
 TEST(Recipes010, RunAndGiveTheirOldTerrain) {
     std::string text;
     for (std::string const& name : old_recipe_names()) {
-        Made const t = make::make(old_recipe(name));
+        MakeResult const t = make::make(old_recipe(name));
         for (Check const& c : t.assessment.checks) { // of 64 x 64 cells full of rivers, some side by side
             bool const crowded = name == "tin_rivers" && c.name == "trace_f_same_cell" && c.value > 0.975;
             EXPECT_TRUE(c.ok || crowded) << name << " " << c.name << " " << c.value;

@@ -31,7 +31,7 @@ using nlohmann::json;
 std::string const cluster = "[grid]\nwidth = 70\nheight = 60\n[network]\nsource = \"dla\"\nprune = 5\n"
                             "[network.dla]\nparticles = 900\n[surface]\nmethod = \"dilate\"\n";
 
-json scene_of(Made const& made) {
+json scene_of(MakeResult const& made) {
     return json::parse("{" + live_scene(made, "seed = 7\n", "thalweg make x") + "}");
 }
 
@@ -48,7 +48,7 @@ TEST(LivePage, IsTheReportsAndMayAskItsOwnServerAlone) {
 }
 
 TEST(LiveScene, GrowsWithWhatIsKnown) {
-    Made const made = make::make(read_recipe(cluster, "r"));
+    MakeResult const made = make::make(read_recipe(cluster, "r"));
     json const measured = scene_of(made);
     EXPECT_EQ(measured["data"]["recipe"], "seed = 7\n");
     EXPECT_EQ(measured["data"]["command"], "thalweg make x");
@@ -56,7 +56,7 @@ TEST(LiveScene, GrowsWithWhatIsKnown) {
     EXPECT_FALSE(measured["lines"].get<std::string>().empty());
     EXPECT_FALSE(measured["water"].get<std::string>().empty());
 
-    Made unmeasured = made;
+    MakeResult unmeasured = made;
     unmeasured.assessment = {};
     json const land = scene_of(unmeasured);
     EXPECT_EQ(land["lines"], measured["lines"]);
@@ -65,7 +65,7 @@ TEST(LiveScene, GrowsWithWhatIsKnown) {
     EXPECT_EQ(land["data"]["rivers"], measured["data"]["rivers"]);
     EXPECT_TRUE(land["data"]["checks"].empty());
 
-    json const rivers = scene_of(rivers_to_be(made.plan.recipe, made.planform));
+    json const rivers = scene_of(planform_preview(made.plan.recipe, made.planform));
     EXPECT_TRUE(rivers["data"]["heights"].is_null());
     EXPECT_EQ(rivers["data"]["rivers"]["arcs"]["strahler"], measured["data"]["rivers"]["arcs"]["strahler"]);
     EXPECT_EQ(rivers["lines"], measured["lines"]);

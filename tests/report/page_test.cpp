@@ -38,7 +38,7 @@ namespace {
 
 enum class Land { with, without };
 
-Made small_terrain(Land land) {
+MakeResult small_terrain(Land land) {
     Recipe recipe = cluster_recipe();
     recipe.grid.width = 90;
     recipe.grid.height = 70;
@@ -145,7 +145,7 @@ std::string const bare = "@@TITLE@@@@DATA@@@@HEIGHTS@@@@LINES@@@@WATER@@@@STUDIO
 } // namespace
 
 TEST(Page, HeightsAndLinesAreThoseOfTheTerrain) {
-    Made const made = small_terrain(Land::with);
+    MakeResult const made = small_terrain(Land::with);
     Grid const& grid = made.terrain.grid;
     ElevatedNetwork const& rivers = made.terrain.rivers.network;
     std::string const html = page(made, {.contour_interval_m = 25.0, .recipe = "seed = 7\n"});
@@ -197,7 +197,7 @@ TEST(Page, HeightsAndLinesAreThoseOfTheTerrain) {
 }
 
 TEST(Page, RidgesFollowTheArcs) {
-    Made terrain = small_terrain(Land::without);
+    MakeResult terrain = small_terrain(Land::without);
     EXPECT_TRUE(data_of(page(terrain))["ridges"].is_null());
     auto const at = [&](Cell c, double z) {
         Vec2 const p = terrain.terrain.grid.centre(c);
@@ -218,7 +218,7 @@ TEST(Page, RidgesFollowTheArcs) {
 }
 
 TEST(Page, MetricsStandBesideTheirTargets) {
-    Made const terrain = small_terrain(Land::with);
+    MakeResult const terrain = small_terrain(Land::with);
     json const data = data_of(page(terrain, {.contour_interval_m = 25.0, .recipe = "seed = 7\n"}));
     EXPECT_EQ(data["title"], "thalweg, seed 7");
     EXPECT_EQ(data["recipe"], "seed = 7\n");
@@ -242,13 +242,13 @@ TEST(Page, MetricsStandBesideTheirTargets) {
     EXPECT_EQ(data["hypsometry"]["points"].size(), 101U);
     EXPECT_EQ(data["hypsometry"]["integral"], terrain.assessment.hypsometry->integral);
 
-    Made papers = terrain;
+    MakeResult papers = terrain;
     papers.recipe.surface->dilate.relief_m = 0.0;
     EXPECT_TRUE(row(data_of(page(papers)), "greatest rise above the valley")["asked"].is_null());
 }
 
 TEST(Page, TheProfileIsThatOfTheLongestFlowPath) {
-    Made terrain = small_terrain(Land::with);
+    MakeResult terrain = small_terrain(Land::with);
     json const profile = data_of(page(terrain))["profiles"][0]["points"];
     ASSERT_GE(profile.size(), 2U);
     EXPECT_EQ(profile.back()[0], 0.0);
@@ -260,7 +260,7 @@ TEST(Page, TheProfileIsThatOfTheLongestFlowPath) {
     EXPECT_NEAR(profile.front()[0].get<double>(), *std::max_element(far.begin(), far.end()), 0.001);
 
     // Of straight rivers the longest, as in the sections, though others drain more; of equals the first.
-    Made two = terrain;
+    MakeResult two = terrain;
     std::vector<Vec2> nodes;
     std::vector<test::Reach> reaches;
     std::vector<double> z;
@@ -283,8 +283,8 @@ TEST(Page, TheProfileIsThatOfTheLongestFlowPath) {
 }
 
 TEST(Page, LongListsAreCut) {
-    Made terrain = small_terrain(Land::with);
-    terrain.terrain.ground.how = make::Dilated{.increments = std::vector<double>(5000, 2.0)};
+    MakeResult terrain = small_terrain(Land::with);
+    terrain.terrain.ground.how = make::ByDilation{.increments = std::vector<double>(5000, 2.0)};
     terrain.assessment.findings.assign(61, {"z_rising", 1, nowhere, 0.0, "arc 1 runs uphill"});
     terrain.plan.findings.clear();
     terrain.planform.findings.clear();
@@ -301,7 +301,7 @@ TEST(Page, LongListsAreCut) {
 }
 
 TEST(Page, FindingsOfEveryKindAreShownWithTheirPlaces) {
-    Made made = small_terrain(Land::with);
+    MakeResult made = small_terrain(Land::with);
     Grid const& grid = made.terrain.grid;
     made.assessment.findings.assign(60, {"depression", 0, grid.centre({3, 4}), 1.0, "one of many"});
     made.assessment.findings.push_back({"crossing", 7, {}, 0.0, "nowhere"});
@@ -317,7 +317,7 @@ TEST(Page, FindingsOfEveryKindAreShownWithTheirPlaces) {
 }
 
 TEST(Page, TheLedgerOfGivenRiversBalances) {
-    Made made = small_terrain(Land::with);
+    MakeResult made = small_terrain(Land::with);
     EXPECT_TRUE(data_of(page(made))["given"].empty());
     GivenLength given;
     given.read_m = 10'000.0;
@@ -336,7 +336,7 @@ TEST(Page, TheLedgerOfGivenRiversBalances) {
 }
 
 TEST(Page, WithoutASurfaceTheRiversAlone) {
-    Made const terrain = small_terrain(Land::without);
+    MakeResult const terrain = small_terrain(Land::without);
     std::string const html = page(terrain, {});
     json const data = data_of(html);
     EXPECT_TRUE(data["heights"].is_null());
@@ -350,7 +350,7 @@ TEST(Page, WithoutASurfaceTheRiversAlone) {
 }
 
 TEST(Page, NoTextLeavesItsPlace) {
-    Made terrain = small_terrain(Land::with);
+    MakeResult terrain = small_terrain(Land::with);
     std::string const hostile = "</script><script>alert(1)</script> <!-- \"quoted\" 'it' & @@DATA@@ @@LINES@@ 谷\n";
     terrain.recipe.output.title = hostile + "\xff\xc3";
     terrain.assessment.findings.push_back({"z_rising", 1, {}, std::numeric_limits<double>::quiet_NaN(), hostile});
@@ -369,7 +369,7 @@ TEST(Page, NoTextLeavesItsPlace) {
 }
 
 TEST(Page, LargeGridsAreShownByMeansAndSaySo) {
-    Made terrain = small_terrain(Land::with);
+    MakeResult terrain = small_terrain(Land::with);
     Grid large = terrain.terrain.grid;
     large.width = 3000;
     large.height = 2000;

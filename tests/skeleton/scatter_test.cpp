@@ -103,7 +103,7 @@ TEST(Scatter, KeepsTheSpacingAndTheCount) {
     for (double const density : {0.0, 0.1, 0.4, 0.6}) {
         for (std::uint64_t seed = 1; seed <= 5; ++seed) {
             double const spacing = std::sqrt(density * 130.0 * 40.0 / 200.0);
-            Scattered const s = scatter(
+            ScatteredPoints const s = scatter(
                 ground, {.seed = seed, .count = 200, .spacing_cells = spacing, .mean_m = 500.0, .std_m = 100.0});
             EXPECT_EQ(s.points.points.size(), 200U);
             EXPECT_EQ(s.missing, 0);
@@ -119,7 +119,7 @@ TEST(Scatter, KeepsTheSpacingAndTheCount) {
 TEST(Scatter, AboveWhatDartsCanDoItSaysWhatIsMissing) {
     for (double const density : {0.64, 0.68, 0.9, 1.1}) {
         double const spacing = std::sqrt(density * 130.0 * 40.0 / 200.0);
-        Scattered const s = scatter(ground, {.count = 200, .spacing_cells = spacing});
+        ScatteredPoints const s = scatter(ground, {.count = 200, .spacing_cells = spacing});
         EXPECT_EQ(static_cast<std::int64_t>(s.points.points.size()) + s.missing, 200);
         EXPECT_GE(least_distance(s.points.points), spacing * 300.0);
         EXPECT_GT(s.points.points.size(), density < 0.7 ? 175U : 100U) << density;
@@ -129,7 +129,7 @@ TEST(Scatter, AboveWhatDartsCanDoItSaysWhatIsMissing) {
 
 TEST(Scatter, HeightsHaveTheAskedMeanAndDeviation) {
     for (HeightLaw const law : {HeightLaw::uniform, HeightLaw::normal}) {
-        Scattered const s = scatter(ground, {.count = 5000, .mean_m = 536.0, .std_m = 131.6, .law = law});
+        ScatteredPoints const s = scatter(ground, {.count = 5000, .mean_m = 536.0, .std_m = 131.6, .law = law});
         double mean = 0.0;
         double square = 0.0;
         double fourth = 0.0;
@@ -201,14 +201,14 @@ TEST(Scatter, ExtremesStandWhereAskedAndNothingPassesThem) {
     Vec3 const highest = at_cell(91, 1, 1038.0);
     Vec3 const lowest = at_cell(129, 26, 276.0);
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-        Scattered const s = scatter(ground, {.seed = seed,
-                                             .count = 300,
-                                             .spacing_cells = 3.0,
-                                             .mean_m = 536.0,
-                                             .std_m = 300.0,
-                                             .highest = highest,
-                                             .lowest = lowest,
-                                             .reach_cells = 6.0});
+        ScatteredPoints const s = scatter(ground, {.seed = seed,
+                                                   .count = 300,
+                                                   .spacing_cells = 3.0,
+                                                   .mean_m = 536.0,
+                                                   .std_m = 300.0,
+                                                   .highest = highest,
+                                                   .lowest = lowest,
+                                                   .reach_cells = 6.0});
         auto const& p = s.points.points;
         EXPECT_EQ(p[0], highest);
         EXPECT_EQ(p[1], lowest);
@@ -222,7 +222,7 @@ TEST(Scatter, ExtremesStandWhereAskedAndNothingPassesThem) {
 
 TEST(Scatter, PlacesAreUniform) {
     // 16 tiles of equal size: chi squared with 15 degrees of freedom stays below 37.7 in 999 of 1000.
-    Scattered const s = scatter({64, 64, 1.0, 0.0, 64.0, ""}, {.count = 16000});
+    ScatteredPoints const s = scatter({64, 64, 1.0, 0.0, 64.0, ""}, {.count = 16000});
     std::array<double, 16> tiles{};
     for (Vec3 const& p : s.points.points) {
         ++tiles[static_cast<std::size_t>(std::floor(p.x / 16.0) + 4.0 * std::floor(p.y / 16.0))];
@@ -249,7 +249,7 @@ TEST(ScatterBetween, RefusesWhatCannotBe) {
 
 TEST(ScatterBetween, NothingIsPlacedWhereNothingMayBe) {
     EXPECT_TRUE(scatter_between(two_rivers(), {}, {.count = 0}).points.points.empty());
-    Scattered const s = scatter_between(two_rivers(), Mask(valley_grid, 0), {.count = 5});
+    ScatteredPoints const s = scatter_between(two_rivers(), Mask(valley_grid, 0), {.count = 5});
     EXPECT_TRUE(s.points.points.empty());
     EXPECT_EQ(s.missing, 5);
 }
@@ -260,7 +260,7 @@ TEST(ScatterBetween, PointsKeepTheirDistancesAndStandAboveTheNearestRiver) {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         for (double const spacing : {0.0, 2.5, 4.0}) {
             for (HeightLaw const law : {HeightLaw::uniform, HeightLaw::normal}) {
-                Scattered const s = scatter_between(valley, inside, {seed, 60, spacing, 0.4, 0.0, law});
+                ScatteredPoints const s = scatter_between(valley, inside, {seed, 60, spacing, 0.4, 0.0, law});
                 EXPECT_EQ(static_cast<std::int64_t>(s.points.points.size()) + s.missing, 60);
                 EXPECT_EQ(s.missing, 0);
                 EXPECT_EQ(s.points.crs, valley_grid.crs);
@@ -285,7 +285,7 @@ TEST(ScatterBetween, PointsKeepTheirDistancesAndStandAboveTheNearestRiver) {
 
 TEST(ScatterBetween, SharesFollowTheirLaw) {
     for (HeightLaw const law : {HeightLaw::uniform, HeightLaw::normal}) {
-        Scattered const s = scatter_between(two_rivers(), {}, {3, 4000, 0.0, 0.4, 0.0, law});
+        ScatteredPoints const s = scatter_between(two_rivers(), {}, {3, 4000, 0.0, 0.4, 0.0, law});
         double mean = 0.0;
         double square = 0.0;
         for (Vec3 const& p : s.points.points) {
@@ -323,7 +323,7 @@ TEST(ScatterBetween, PointsRiseNoMoreBeyondTheFarthestDistance) {
 }
 
 TEST(ScatterBetween, SaysWhatFoundNoRoom) {
-    Scattered const s = scatter_between(two_rivers(), {}, {3, 400, 2.8});
+    ScatteredPoints const s = scatter_between(two_rivers(), {}, {3, 400, 2.8});
     EXPECT_GT(s.missing, 0);
     EXPECT_GT(s.points.points.size(), 150U);
     EXPECT_EQ(static_cast<std::int64_t>(s.points.points.size()) + s.missing, 400);

@@ -205,7 +205,7 @@ TEST_F(DocumentFolders, WhatMakeMakesOfTheRecipeIsTheSame) {
     document.edit({"", {ReplaceRecipe{recipe::write_recipe(recipe::default_recipe_on(64, 64))}}});
     document.edit({"", {SetKey{"network.heights", "graded"}, SetKey{"seed", "3"}}});
     commands::run_make({at("d/recipe.toml"), at("by_make")});
-    make::Made const shown = make::make(document.document().recipe);
+    make::MakeResult const shown = make::make(document.document().recipe);
     report::write_terrain(shown, at("shown"));
     for (std::string const name : {"dem.tif", "network.gpkg", "network.tif", "recipe.toml"}) {
         EXPECT_FALSE(bytes_of(at("by_make/" + name)).empty()) << name;

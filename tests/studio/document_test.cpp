@@ -87,7 +87,7 @@ TEST(Document, AnEditSetsAKeyAsOnTheCommandLine) {
 
 TEST(Document, AMethodTakesItsKeysWithItAndTheInverseBringsThemBack) {
     Document const first = apply(forest(), set("surface.hillslope", "22")).document;
-    Applied const other = apply(first, set("surface.method", "dilate"));
+    AppliedEdit const other = apply(first, set("surface.method", "dilate"));
     EXPECT_TRUE(has(first.toml, "hillslope = 22.0"));
     EXPECT_FALSE(has(other.document.toml, "hillslope"));
     EXPECT_EQ(apply(other.document, {"", {other.inverse}}).document.toml, first.toml);
@@ -134,7 +134,7 @@ TEST(Document, EveryKeyIsSetOrRefusedAndTakenBack) {
         values.push_back(key.is_file ? "inputs/1/x" : "1");
         for (std::string const& value : values) {
             try {
-                Applied const there = apply(first, set(key.path, value));
+                AppliedEdit const there = apply(first, set(key.path, value));
                 EXPECT_EQ(apply(there.document, {"", {there.inverse}}).document.toml, first.toml) << key.path;
                 EXPECT_EQ(document_of(there.document.toml).toml, there.document.toml) << key.path;
                 ++accepted;
@@ -150,8 +150,8 @@ TEST(Document, AnInverseTakesAnEditBackByteForByte) {
         Document document = forest();
         for (Edit const& edit : *rc::gen::resize(8, rc::gen::container<std::vector<Edit>>(some_edit()))) {
             try {
-                Applied const there = apply(document, edit);
-                Applied const back = apply(there.document, {"", {there.inverse}});
+                AppliedEdit const there = apply(document, edit);
+                AppliedEdit const back = apply(there.document, {"", {there.inverse}});
                 RC_ASSERT(back.document.toml == document.toml);
                 RC_ASSERT(apply(back.document, {"", {back.inverse}}).document.toml == there.document.toml);
                 RC_ASSERT(recipe::write_recipe(there.document.recipe) == there.document.toml);

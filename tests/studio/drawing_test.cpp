@@ -115,7 +115,7 @@ void expect_lawful(Drawing const& drawing) {
     network::ImportParams params;
     params.orientation = network::Orientation::as_drawn;
     params.divergences = network::Divergences::error;
-    network::Imported const imported = network::import_lines(lines, params);
+    network::ImportedNetwork const imported = network::import_lines(lines, params);
     for (Finding const& repair : imported.repairs) {
         EXPECT_TRUE(repair.kind == "joined" || repair.kind == "split") << repair.kind.name() << ": " << repair.text;
         if (repair.kind == "split") { // where they meet, and nowhere else

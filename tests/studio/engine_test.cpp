@@ -53,7 +53,7 @@ public:
         std::vector<std::pair<Raster<float>, bool>> heights;
         int rivers = 0;
         int made = 0;
-        std::shared_ptr<make::Made const> measured;
+        std::shared_ptr<make::MakeResult const> measured;
         std::string failed;
         bool stopped = false;
     };
@@ -111,9 +111,9 @@ private:
                     [this](Job const& job, Heights const& seen) {
                         note(job, [&](Told& told) { told.heights.emplace_back(seen.dem, seen.is_finished); });
                     },
-                .made = [this](Job const& job, make::Made const&) { note(job, [](Told& told) { ++told.made; }); },
+                .made = [this](Job const& job, make::MakeResult const&) { note(job, [](Told& told) { ++told.made; }); },
                 .measured =
-                    [this](Job const& job, std::shared_ptr<make::Made const> const& made) {
+                    [this](Job const& job, std::shared_ptr<make::MakeResult const> const& made) {
                         note(job, [&](Told& told) { told.measured = made; });
                         end(job);
                     },
@@ -142,7 +142,7 @@ Document edited(Document const& document, std::string const& key, std::string co
 }
 
 /// Whether two terrains are the same in all that make writes of them.
-testing::AssertionResult are_same(make::Made const& a, make::Made const& b) {
+testing::AssertionResult are_same(make::MakeResult const& a, make::MakeResult const& b) {
     if (a.terrain.has_surface() != b.terrain.has_surface() ||
         (a.terrain.has_surface() && !test::same_bits(a.terrain.ground.dem, b.terrain.ground.dem))) {
         return testing::AssertionFailure() << "other heights";
@@ -166,7 +166,7 @@ testing::AssertionResult are_same(make::Made const& a, make::Made const& b) {
     if (!checks || recipe::write_recipe(a.recipe) != recipe::write_recipe(b.recipe)) {
         return testing::AssertionFailure() << "other checks or recipe";
     }
-    auto const texts = [](make::Made const& made) {
+    auto const texts = [](make::MakeResult const& made) {
         std::vector<std::string> all;
         for (Finding const& finding : make::findings_of(made)) {
             all.push_back(std::string(finding.kind.name()) + ": " + finding.text);
@@ -276,7 +276,7 @@ void expect_same_after_edits(Document document, int edits, std::uint64_t seed) {
         all += what + "\n";
         SCOPED_TRACE(testing::Message() << "seed " << seed << ", after\n" << all);
         Watched::Told const told = watched.make(document);
-        std::optional<make::Made> fresh;
+        std::optional<make::MakeResult> fresh;
         std::string const error = test::error_of([&] { fresh = make::make(document.recipe); });
         ASSERT_EQ(told.measured != nullptr, fresh.has_value()) << told.failed << " / " << error;
         if (fresh) {
@@ -325,7 +325,7 @@ TEST(Engine, SaysWhatMakeSaysOfAKeptStage) {
     Document const first = files.document(recipes_of_files().front());
     Document const sinks = edited(first, "network.inland", "sink");
     Document const without = apply(first, {"", {UnsetKey{"patch.1"}}}).document;
-    auto const has = [](make::Made const& made, std::string_view kind) {
+    auto const has = [](make::MakeResult const& made, std::string_view kind) {
         return std::ranges::any_of(make::findings_of(made), [&](Finding const& found) { return found.kind == kind; });
     };
     for (Document const& document : {first, sinks, without, first}) {
@@ -504,7 +504,7 @@ TEST(Engine, SaysWhyARecipeCannotBeMade) {
 }
 
 TEST(Engine, KeepsNoMoreThanItMay) {
-    Kept kept(100);
+    ResultCache kept(100);
     kept.keep("a", std::make_shared<int>(1), 60);
     kept.keep("b", std::make_shared<int>(2), 30);
     EXPECT_NE(kept.find("a"), nullptr);

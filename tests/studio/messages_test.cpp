@@ -154,7 +154,7 @@ TEST(Messages, SayWhatADocumentHolds) {
     EXPECT_EQ(said["redo"], "");
     for (auto const& [path, text] : said["values"].items()) { // each value can be set as it stands
         if (!text.is_null()) {
-            Applied const same = apply(session.document, {"", {SetKey{path, text.get<std::string>()}}});
+            AppliedEdit const same = apply(session.document, {"", {SetKey{path, text.get<std::string>()}}});
             EXPECT_EQ(same.document.toml, session.document.toml) << path;
         }
     }

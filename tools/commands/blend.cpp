@@ -30,7 +30,7 @@ char const* name_of(make::PatchPlace place) {
 }
 
 nlohmann::ordered_json json_of(make::BlendedDem const& made, std::string const& file) {
-    blend::Pasted const& pasted = made.pasted;
+    blend::PastedDem const& pasted = made.pasted;
     return {{"file", file},
             {"place", name_of(made.place)},
             {"at", {made.at.x, made.at.y}},
@@ -52,7 +52,7 @@ char const* why_there(make::PatchPlace place) {
 }
 
 std::string blend_in_words(make::BlendedDem const& made, blend::Holes holes) {
-    blend::Pasted const& pasted = made.pasted;
+    blend::PastedDem const& pasted = made.pasted;
     std::string words =
         fmt::format("{} cells around ({:.3f}, {:.3f}){}; seam {:.3f} m rms, {:.3f} m at most", pasted.cells, made.at.x,
                     made.at.y, why_there(made.place), pasted.seam_rms_m, pasted.seam_max_m);

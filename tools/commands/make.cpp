@@ -190,7 +190,7 @@ int make(MakeOptions& options, bool rebuilds, Session& session) {
         fmt::print("{}", forecast_in_words(expected, session.json));
         return Exit::done;
     }
-    make::Made const made =
+    make::MakeResult const made =
         rebuilds ? commands::run_rebuild(options.params, session.run) : commands::run_make(options.params, session.run);
     for (Check const& check : made.assessment.checks) {
         if (!check.ok) {

@@ -68,8 +68,8 @@ Mask grip(Mask& cells, std::vector<Handle> const& handles, Raster<double>& heigh
     return held;
 }
 
-Deformed with_handles_only(Raster<float> const& target, std::vector<Handle> const& handles) {
-    Deformed deformed;
+DeformedDem with_handles_only(Raster<float> const& target, std::vector<Handle> const& handles) {
+    DeformedDem deformed;
     deformed.dem = target;
     for (Handle const& handle : handles) {
         deformed.dem[handle.cell] = static_cast<float>(handle.z);
@@ -88,8 +88,8 @@ bool is_empty(Mask const& mask) {
 
 } // namespace
 
-Deformed deform(Raster<float> const& target, Mask const& region, std::vector<Handle> const& handles,
-                DeformParams const& params, Run const& run) {
+DeformedDem deform(Raster<float> const& target, Mask const& region, std::vector<Handle> const& handles,
+                   DeformParams const& params, Run const& run) {
     check(target, region, params);
     Mask free = bendable(target, region);
     Raster<double> pulled(target.grid());
@@ -98,7 +98,7 @@ Deformed deform(Raster<float> const& target, Mask const& region, std::vector<Han
     for (std::uint8_t const m : held.values()) {
         grips += m;
     }
-    Deformed deformed = with_handles_only(target, handles);
+    DeformedDem deformed = with_handles_only(target, handles);
     deformed.cells = grips;
     if (grips > 0 && is_empty(free)) {
         return deformed;

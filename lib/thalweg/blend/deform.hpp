@@ -17,7 +17,7 @@
 // hold a few cells around each. Water may not run any more: condition the result.
 // Example:
 //     std::vector<Handle> const handles = {{.cell = {40, 30}, .z = 700.0}};
-//     Deformed const gentler = deform(dem, land, handles, {.scale = 0.5}); // land: the region
+//     DeformedDem const gentler = deform(dem, land, handles, {.scale = 0.5}); // land: the region
 //     Raster<float> const& dem_m = gentler.dem;
 // More: docs/rivers.md, "Blending"; docs/commands.md, "Paste and deform".
 
@@ -36,7 +36,7 @@ struct DeformParams {
 };
 
 /// A target with a deformed region.
-struct Deformed {
+struct DeformedDem {
     Raster<float> dem;
     std::int64_t cells = 0; ///< deformed, handles included
     int iterations = 0;     ///< of the solver
@@ -57,7 +57,7 @@ struct Deformed {
 /// \throws NotConverged when the solver does not reach the tolerance
 ///
 /// Source: \cite nenu2015, section 4.2 (deformation).
-Deformed deform(Raster<float> const& target, Mask const& region, std::vector<Handle> const& handles,
-                DeformParams const& params = {}, Run const& run = {});
+DeformedDem deform(Raster<float> const& target, Mask const& region, std::vector<Handle> const& handles,
+                   DeformParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::blend

@@ -98,17 +98,17 @@ struct PlanBox {
 };
 
 /// Triangles that the region may touch, and all others.
-struct Parted {
+struct SplitTriangles {
     std::vector<Triangle> near;
     std::vector<Triangle> far;
 };
 
-Parted part(Tin const& target, std::vector<Vec2> const& outline) {
+SplitTriangles part(Tin const& target, std::vector<Vec2> const& outline) {
     PlanBox region;
     for (Vec2 const p : outline) {
         region.add(p);
     }
-    Parted parted;
+    SplitTriangles parted;
     for (Triangle const& t : target.triangles) {
         PlanBox box;
         for (std::uint32_t const v : t) {
@@ -497,7 +497,7 @@ std::vector<std::uint32_t> outline_of(Tin const& mesh, std::string const& name, 
 }
 
 CutTin cut_tin(Tin const& target, std::vector<Vec2> const& outline, Run const& run) {
-    Parted const parted = part(target, outline);
+    SplitTriangles const parted = part(target, outline);
     if (parted.near.empty()) {
         throw BadInput(
             fmt::format("blend.cut_tin: the patch at ({}, {}) lies off the target", outline.at(0).x, outline.at(0).y));

@@ -240,7 +240,7 @@ void check(Raster<float> const& target, Patch const& patch, PasteParams const& p
 }
 
 // Also counts the cells of the mask that do not change.
-Mask changes_of(Patch const& patch, PasteParams const& params, Pasted& pasted) {
+Mask changes_of(Patch const& patch, PasteParams const& params, PastedDem& pasted) {
     Mask changes(patch.mask.grid());
     for (std::int64_t i = 0; i < changes.cells(); ++i) {
         if (patch.mask[i] == 0) {
@@ -291,9 +291,10 @@ Raster<double> carrier_of(Raster<double> const& source, EditRegion const& edit_r
 }
 
 /// The differences that the pasted terrain should have.
-class Wanted {
+class WantedDifferences {
 public:
-    Wanted(Raster<double> const& source, EditRegion const& edit_region, PasteParams const& params, Run const& run)
+    WantedDifferences(Raster<double> const& source, EditRegion const& edit_region, PasteParams const& params,
+                      Run const& run)
         : source_(source), edit_region_(edit_region), relief_(params.relief), feather_(params.feather_cells) {
         if (feather_ > 0.0) {
             Mask changes(edit_region.kind.grid());
@@ -347,7 +348,7 @@ Guidance guidance_of(Raster<double> const& source, EditRegion const& edit_region
     if (params.relief == Relief::source && params.feather_cells == 0.0 && !has_gap(source, edit_region)) {
         return {};
     }
-    Wanted const wanted(source, edit_region, params, run);
+    WantedDifferences const wanted(source, edit_region, params, run);
     Guidance guidance{Raster<double>(source.grid()), Raster<double>(source.grid())};
     std::int64_t const width = source.width();
     parallel_ranges(run, source.height(), 8, [&](std::int64_t begin, std::int64_t end) {
@@ -435,9 +436,9 @@ Patch place_patch(Raster<float> const& source, Grid const& target, PlacePatchPar
     return patch;
 }
 
-Pasted paste(Raster<float> const& target, Patch const& patch, PasteParams const& params, Run const& run) {
+PastedDem paste(Raster<float> const& target, Patch const& patch, PasteParams const& params, Run const& run) {
     check(target, patch, params);
-    Pasted pasted;
+    PastedDem pasted;
     EditRegion const edit_region = edit_region_of(target, changes_of(patch, params, pasted), {}, "blend.paste", run);
     Raster<double> const source = cut_out(patch.z, edit_region);
     Guidance const guidance = guidance_of(source, edit_region, params, run);

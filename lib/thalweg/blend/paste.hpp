@@ -12,7 +12,7 @@
 // takes the target's heights at its edge: the terrain whose differences come closest to these is
 // the solution of Poisson's equation. Solved is the shift from the patch, which without a feather
 // is harmonic: a membrane between the differences at the edge carries the patch. So a patch that is
-// the target's own, or higher by a constant, changes nothing. Kept cells, such as rivers, are fixed
+// the target's own, or higher by a constant, changes nothing. ResultCache cells, such as rivers, are fixed
 // as the edge is. With a feather the target's differences fade into the patch's over some cells;
 // `mixed` takes whichever is larger.
 // Source: Pérez, Gangnet and Blake 2003; Northeast Normal University 2015, algorithm 1 and
@@ -25,7 +25,7 @@
 // surroundings stays so: give a gain.
 // Example:
 //     Patch const patch = place_patch(other_dem, dem.grid(), {.rotate_deg = 20.0, .gain = 0.8});
-//     Pasted const pasted = paste(dem, patch, {.feather_cells = 12.0});
+//     PastedDem const pasted = paste(dem, patch, {.feather_cells = 12.0});
 //     double const seam_m = pasted.seam_rms_m;
 // More: docs/rivers.md, "Blending".
 
@@ -93,7 +93,7 @@ struct PasteParams {
 };
 
 /// A target with a pasted patch.
-struct Pasted {
+struct PastedDem {
     Raster<float> dem;
     std::int64_t cells = 0;  ///< replaced by the patch
     std::int64_t kept = 0;   ///< cells of the mask that keep protects
@@ -118,6 +118,6 @@ struct Pasted {
 /// \throws NotConverged when the solver does not reach the tolerance
 ///
 /// Source: \cite nenu2015, algorithm 1 and eqs 14 to 16; \cite perez2003, Poisson image editing.
-Pasted paste(Raster<float> const& target, Patch const& patch, PasteParams const& params = {}, Run const& run = {});
+PastedDem paste(Raster<float> const& target, Patch const& patch, PasteParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::blend

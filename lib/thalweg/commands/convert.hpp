@@ -50,8 +50,10 @@ struct ConvertResult {
 /// Runs `thalweg convert`: reads a network and writes it in any schema and format. Arcs are in the order of their ids,
 /// renumbered from the schema's first id; orders and basins are computed. Attributes that the schema lacks are lost;
 /// unknown values get the schema's mark for unknown; lines without heights are written without. The output is written
-/// completely or not at all; the source is never replaced. \return files and changes \throws BadInput when the source
-/// is not a forest, the DEM does not cover it, the output exists and existing is refuse, or the output is the source
+/// completely or not at all; the source is never replaced.
+/// \return files and changes
+/// \throws BadInput when the source is not a forest, the DEM does not cover it, the output exists and existing is
+/// refuse, or the output is the source
 ConvertResult run_convert(ConvertParams const& params, Run const& run = {});
 
 } // namespace thalweg::commands

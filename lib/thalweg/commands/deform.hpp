@@ -46,7 +46,7 @@ struct DeformedTin {
 };
 
 /// A deformed DEM.
-struct DeformedDem : blend::Deformed {
+struct DeformedDem : blend::DeformedDem {
     std::vector<Finding> findings = {}; ///< how it was read
 };
 

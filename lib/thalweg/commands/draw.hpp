@@ -40,9 +40,10 @@ struct DrawResult {
 };
 
 /// Runs `thalweg draw`: draws pictures of a folder written by make, of a raster, or of an ensemble. Each file is
-/// written completely or not at all. \return the files written \throws BadParameter for an unknown kind or format (with
-/// a suggestion), or several pictures for one name \throws BadInput for a picture that cannot be drawn, or a file that
-/// exists already; as the readers and the pictures
+/// written completely or not at all.
+/// \return the files written
+/// \throws BadParameter for an unknown kind or format (with a suggestion), or several pictures for one name
+/// \throws BadInput for a picture that cannot be drawn, or a file that exists already; as the readers and the pictures
 DrawResult run_draw(DrawParams const& params, Run const& run = {});
 
 } // namespace thalweg::commands

@@ -28,11 +28,13 @@ struct EnsembleParams : MakeParams {
 /// Runs `thalweg make --ensemble`: makes terrains by one recipe that differ in the seed and in what varies, and leaves
 /// a folder for each, or tar files of many, and table.csv with a row for each. Members that the folder already holds
 /// are kept; those that failed are tried again. The files are those of the recipe's output.files, dem and network where
-/// it names none; "table" among the files asked for, alone, leaves no other. \param params recipe or rivers, and
-/// options \return what became of it; a share writes no table \throws BadParameter for options out of their range, and
-/// when none of the first members has a possible recipe \throws BadInput when the folder holds something else, or
-/// another ensemble \throws IoError when a file cannot be written; members committed before stay \throws Cancelled when
-/// the work must stop; members committed before stay
+/// it names none; "table" among the files asked for, alone, leaves no other.
+/// \param params recipe or rivers, and options
+/// \return what became of it; a share writes no table
+/// \throws BadParameter for options out of their range, and when none of the first members has a possible recipe
+/// \throws BadInput when the folder holds something else, or another ensemble
+/// \throws IoError when a file cannot be written; members committed before stay
+/// \throws Cancelled when the work must stop; members committed before stay
 ensemble::EnsembleResult run_ensemble(EnsembleParams const& params, Run const& run = {});
 
 /// \internal

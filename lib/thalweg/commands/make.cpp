@@ -80,7 +80,7 @@ recipe::Recipe recipe_asked(MakeParams const& params) {
                         params);
 }
 
-make::Made run_make(MakeParams const& params, Run const& run) {
+make::MakeResult run_make(MakeParams const& params, Run const& run) {
     recipe::Recipe recipe = recipe_asked(params);
     recipe::UserFiles const files(recipe, run);
     return report::make_folder(recipe, params.output, params.existing, run);
@@ -92,7 +92,7 @@ recipe::Forecast forecast_make(MakeParams const& params, Run const& run) {
     return recipe::forecast(recipe, run);
 }
 
-make::Made run_rebuild(RebuildFromParams const& params, Run const& run) {
+make::MakeResult run_rebuild(RebuildFromParams const& params, Run const& run) {
     recipe::Recipe recipe = recipe_to_rebuild(params);
     recipe::UserFiles const files(recipe, run);
     return report::make_folder(recipe::rebuild_recipe(recipe, run), params.output, params.existing, run);

@@ -30,7 +30,7 @@ struct MakeParams {
 /// \return the terrain
 /// \throws BadParameter for a key or field that is unknown
 /// \throws Error as recipe_from(), UserFiles, make() and write_terrain()
-make::Made run_make(MakeParams const& params, Run const& run = {});
+make::MakeResult run_make(MakeParams const& params, Run const& run = {});
 
 /// \internal
 /// Runs `thalweg make --dry-run`: plans the same work, and writes nothing.
@@ -50,7 +50,7 @@ struct RebuildFromParams : MakeParams {
 /// \return the terrain
 /// \throws BadParameter without rivers; BadInput when the input has none
 /// \throws Error as run_make()
-make::Made run_rebuild(RebuildFromParams const& params, Run const& run = {});
+make::MakeResult run_rebuild(RebuildFromParams const& params, Run const& run = {});
 
 /// \internal
 /// Runs `thalweg rebuild --dry-run`: plans the same work, and writes nothing.

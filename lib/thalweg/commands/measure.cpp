@@ -56,14 +56,14 @@ std::vector<Measure> const& measures() {
     return all;
 }
 
-struct Measured {
+struct MeasuredInput {
     std::string dem;
     std::string network; ///< "": none
 };
 
-Measured source_of(MeasureParams const& params) {
+MeasuredInput source_of(MeasureParams const& params) {
     std::error_code ignored;
-    Measured source{params.dem, params.network};
+    MeasuredInput source{params.dem, params.network};
     if (fs::is_directory(params.dem, ignored)) {
         source.dem = (fs::path(params.dem) / "dem.tif").string();
         if (fs::path const beside = fs::path(params.dem) / "network.gpkg";
@@ -74,7 +74,7 @@ Measured source_of(MeasureParams const& params) {
     return source;
 }
 
-std::set<std::string> wanted_of(MeasureParams const& params, Measured const& source) {
+std::set<std::string> wanted_of(MeasureParams const& params, MeasuredInput const& source) {
     std::vector<std::string> known;
     for (Measure const& measure : measures()) {
         known.push_back(measure.name);
@@ -315,7 +315,7 @@ void write_rivers(Ground const& g, MeasureParams const& params, MeasureResult& m
 }
 
 /// The arcs of a network in the DEM's CRS. Lines of which nothing tells how they join are joined as by `check --fix`.
-NetworkFile read_arcs(Measured const& source, io::ReadNetworkParams how, Raster<float> const& dem,
+NetworkFile read_arcs(MeasuredInput const& source, io::ReadNetworkParams how, Raster<float> const& dem,
                       std::vector<Finding>& findings, Run const& run) {
     how.crs = dem.grid().crs;
     how.any_lines = true;
@@ -336,7 +336,7 @@ NetworkFile read_arcs(Measured const& source, io::ReadNetworkParams how, Raster<
 } // namespace
 
 MeasureResult run_measure(MeasureParams const& params, Run const& run) {
-    Measured const source = source_of(params);
+    MeasuredInput const source = source_of(params);
     auto const wanted = wanted_of(params, source);
     Writer out(params.output, wanted, params.existing);
     constexpr std::int64_t any_side = 1000000;

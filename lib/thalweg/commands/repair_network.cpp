@@ -322,9 +322,9 @@ double diagonal_of(NetworkFile const& file) {
 }
 
 /// The file's attributes of the rivers' lines, by feature; of several with one id, of the first.
-class Known {
+class GivenAttributes {
 public:
-    Known(NetworkFile const& file, RepairedLines const& lines) : file_(file), lines_(lines) {
+    GivenAttributes(NetworkFile const& file, RepairedLines const& lines) : file_(file), lines_(lines) {
         for (std::size_t r = 0; r < lines.arcs.size(); ++r) {
             by_feature_.emplace_back(lines.rivers.lines[r].feature, r);
         }
@@ -366,7 +366,7 @@ struct ArrivingAreas {
 /// stays unknown.
 class AreaKeeper {
 public:
-    AreaKeeper(Known const& known, double near_m, std::int64_t id_shift, RepairedNetwork& mended)
+    AreaKeeper(GivenAttributes const& known, double near_m, std::int64_t id_shift, RepairedNetwork& mended)
         : known_(known), near_m_(near_m), id_shift_(id_shift), mended_(mended) {}
 
     void take() {
@@ -428,7 +428,7 @@ private:
         return least_m2;
     }
 
-    Known const& known_;
+    GivenAttributes const& known_;
     double near_m_;
     std::int64_t id_shift_;
     RepairedNetwork& mended_;
@@ -436,7 +436,7 @@ private:
 };
 
 /// What the file says of the main stems.
-network::StemClues clues_of(Known const& known, StreamNetwork const& plan) {
+network::StemClues clues_of(GivenAttributes const& known, StreamNetwork const& plan) {
     network::StemClues clues;
     for (Arc const& arc : plan.arcs()) {
         clues.arcs.push_back(network::clues_of(known.arc(arc.feature)));
@@ -454,7 +454,7 @@ std::vector<Stretch> stretches_of(NetworkFile::FileArc const& given, double give
 }
 
 /// Copies the file's attributes of arcs, other than their lines.
-void take_words(Known const& known, RepairedNetwork& mended) {
+void take_words(GivenAttributes const& known, RepairedNetwork& mended) {
     NetworkDraft named = mended.network.planform.draft();
     for (ArcId a = 0; a < named.arcs.size(); ++a) {
         Arc& of = named.arcs[a].arc;
@@ -496,7 +496,7 @@ void report_repairs(measure::TopologyReport const& found, std::vector<Finding>& 
     }
 }
 
-void report_lowering(network::Lowered const& lowered, std::int64_t id_shift, std::vector<Finding>& mended) {
+void report_lowering(network::LoweredNetwork const& lowered, std::int64_t id_shift, std::vector<Finding>& mended) {
     std::size_t a = 0;
     for (ArcId arc = 0; arc < lowered.network.planform.arc_count(); ++arc) {
         Arc const& of = lowered.network.planform.arc(arc);
@@ -525,7 +525,7 @@ RepairedNetwork repair_network(NetworkFile const& file, measure::TopologyReport 
     }
     bool const may_have_gaps = params.near_m <= 0.0 && file.schema != "native"; // whose arcs say where rivers end
     double const cell_m = may_have_gaps ? network::choose_cell(lines.rivers, {}, run).cell_m : 0.0;
-    network::Imported imported;
+    network::ImportedNetwork imported;
     try {
         imported = network::import_lines(lines.rivers,
                                          {.snap_m = near_m,
@@ -540,7 +540,7 @@ RepairedNetwork repair_network(NetworkFile const& file, measure::TopologyReport 
     }
     append(mended.mended, std::move(imported.repairs));
     mended.doubts = make::direction_findings(imported.directions, params.dem != nullptr ? "" : "--dem FILE", "");
-    network::Lowered lowered = network::lower_rises(imported.network, imported.arc_z);
+    network::LoweredNetwork lowered = network::lower_rises(imported.network, imported.arc_z);
     report_lowering(lowered, file.id_shift, mended.mended);
     if (!file.says.heights) {
         mended.mended.push_back(
@@ -548,7 +548,7 @@ RepairedNetwork repair_network(NetworkFile const& file, measure::TopologyReport 
     }
     mended.network = std::move(lowered.network);
     mended.has_heights = file.says.heights;
-    Known const known(file, lines);
+    GivenAttributes const known(file, lines);
     StreamNetwork const& plan = mended.network.planform;
     mended.orders = network::order(plan, network::main_inflows(plan, clues_of(known, plan), params.main));
     AreaKeeper(known, near_m, file.id_shift, mended).take();

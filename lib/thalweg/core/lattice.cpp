@@ -155,11 +155,11 @@ constexpr std::uint32_t no_vertex = std::numeric_limits<std::uint32_t>::max();
 using Corners = std::array<std::int64_t, 3>;
 
 /// The triangles between four vertices; cell: the vertex in the north-west.
-struct Cut {
+struct SplitSquare {
     std::array<Corners, 2> triangles{};
     int count = 0;
 };
-Cut cut_at(Raster<float> const& z, Cell cell) {
+SplitSquare cut_at(Raster<float> const& z, Cell cell) {
     std::int64_t const nw = z.grid().index(cell);
     std::array<std::int64_t, 4> const corners = {nw, nw + z.width(), nw + z.width() + 1, nw + 1}; // from above
     auto const at = [&](std::size_t k) { return corners[k % 4]; };
@@ -175,7 +175,7 @@ Cut cut_at(Raster<float> const& z, Cell cell) {
         std::size_t const k = std::fabs(z[at(0)] - z[at(2)]) <= std::fabs(z[at(1)] - z[at(3)]) ? 0 : 1;
         return {{Corners{at(k), at(k + 1), at(k + 2)}, Corners{at(k), at(k + 2), at(k + 3)}}, 2};
     }
-    return holes == 1 ? Cut{{Corners{at(hole + 1), at(hole + 2), at(hole + 3)}}, 1} : Cut{};
+    return holes == 1 ? SplitSquare{{Corners{at(hole + 1), at(hole + 2), at(hole + 3)}}, 1} : SplitSquare{};
 }
 
 /// Calls add(corners) for the triangles of a lattice.
@@ -183,7 +183,7 @@ template <class Add> void for_triangles(Raster<float> const& z, Run const& run, 
     for (std::int64_t row = 0; row + 1 < z.height(); ++row) {
         run.check();
         for (std::int64_t col = 0; col + 1 < z.width(); ++col) {
-            Cut const cut = cut_at(z, {col, row});
+            SplitSquare const cut = cut_at(z, {col, row});
             for (int k = 0; k < cut.count; ++k) {
                 add(cut.triangles[static_cast<std::size_t>(k)]);
             }
@@ -275,7 +275,7 @@ double height_on_mesh(Lattice const& lattice, Vec2 position) {
         return Vec2{static_cast<double>(c.col), static_cast<double>(-c.row)};
     };
     Vec2 const p{x, -y};
-    Cut const cut = cut_at(z, cell);
+    SplitSquare const cut = cut_at(z, cell);
     for (int k = 0; k < cut.count; ++k) {
         auto const& [a, b, c] = cut.triangles[static_cast<std::size_t>(k)];
         double const of_a = cross(p, place(b), place(c)); // twice the area of the triangle is 1

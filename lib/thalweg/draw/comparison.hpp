@@ -32,9 +32,11 @@ struct ComparisonParams {
 double limit_of_differences(Raster<float> const& difference);
 
 /// Draws the map of differences alone, without a margin: blue, the terrain is lower; red, it is higher; black, divides
-/// of both; amber, of the DEM; violet, of the terrain. \param sheet rasters on one grid \param params title and dem are
-/// not used \return one pixel or less a cell where the grid is wider than width_px \throws BadInput when the rasters
-/// differ in size or have no cells
+/// of both; amber, of the DEM; violet, of the terrain.
+/// \param sheet rasters on one grid
+/// \param params title and dem are not used
+/// \return one pixel or less a cell where the grid is wider than width_px
+/// \throws BadInput when the rasters differ in size or have no cells
 Picture differences(ComparisonSheet const& sheet, ComparisonParams const& params = {});
 
 /// Draws hillshades of the DEM and the terrain and the map of differences beside one another, with a legend.

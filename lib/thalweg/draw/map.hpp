@@ -91,10 +91,11 @@ struct MapSheet {
 
 /// Draws a map: hillshade under a hypsometric tint, contours with heights on index contours, ridges as thin brown
 /// lines, rivers whose width and colour follow their contributing area (Strahler order if no area is known), sea and
-/// lakes, spot heights, scale bar, legend, title with the grid's facts, and a frame with coordinates. \param sheet a
-/// DEM of at least one cell; cells without a shade are drawn as level \return the picture \throws BadInput when
-/// hillshade, lakes, orders or areas belong to another grid or network, or a coordinate of a line or spot height is not
-/// finite
+/// lakes, spot heights, scale bar, legend, title with the grid's facts, and a frame with coordinates.
+/// \param sheet a DEM of at least one cell; cells without a shade are drawn as level
+/// \return the picture
+/// \throws BadInput when hillshade, lakes, orders or areas belong to another grid or network, or a coordinate of a line
+/// or spot height is not finite
 Picture map(MapSheet const& sheet, MapParams const& params = {});
 
 /// Options of ground().

@@ -191,7 +191,7 @@ char const* name_of(MemberState state) {
     return state == MemberState::ok ? "ok" : state == MemberState::failed ? "failed" : "check_failed";
 }
 
-MemberRow row_of(Member const& member, make::Made const& made) {
+MemberRow row_of(Member const& member, make::MakeResult const& made) {
     MemberRow row{.member = member};
     for (Check const& check : made.assessment.checks) {
         if (!check.ok) {

@@ -82,12 +82,12 @@ struct MemberRow {
 /// \param member which one
 /// \param made its terrain
 /// \return the row
-MemberRow row_of(Member const& member, make::Made const& made);
+MemberRow row_of(Member const& member, make::MakeResult const& made);
 
 /// A member with its terrain.
 struct MadeMember {
     MemberRow row;
-    std::optional<make::Made> made = {}; ///< nothing: the member failed, and the row says why
+    std::optional<make::MakeResult> made = {}; ///< nothing: the member failed, and the row says why
 };
 
 /// Makes a member of an ensemble, as make() does.

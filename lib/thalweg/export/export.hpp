@@ -127,15 +127,16 @@ struct ExportResult {
 /// beside it FILE.json, which says sizes, heights, axes and position. All files are written, or none. The corners are
 /// the centres of the DEM's corner cells (thalweg::lattice). png16, r16, r32, exr: as io::write_heightmap. glb, obj,
 /// stl: metres from a local origin in the middle at the lowest height. Cells without data get the level of the sea if
-/// the folder's recipe has one; else surface::close_gaps closes them, in glb, obj and for the web only where asked.
-/// glb and obj are Y up, with a texture; glb has rivers as lines. stl is a closed solid, Z up. A preset leaves a
-/// folder: heights in the format and sizes of its program, in tiles that share their edges; a colour texture; masks as
-/// grey PNG; rivers with width and discharge as JSON; for godot and blender a GLB; for web tiles and pages, for print3d
-/// a solid; export.json, which says all of it in numbers. \return what was written; the same bytes for any number of
-/// threads \throws BadParameter for an unknown format, preset or mask, an option of another one or a size that it
-/// cannot have; for exr in a build without OpenEXR \throws BadInput when masks of rivers are asked for and there are
-/// none, the size would stretch the DEM by more than 1 %, a file exists already; as surface::close_gaps; as the
-/// readers
+/// the folder's recipe has one; else surface::close_gaps closes them, in glb, obj and for the web only where asked. glb
+/// and obj are Y up, with a texture; glb has rivers as lines. stl is a closed solid, Z up. A preset leaves a folder:
+/// heights in the format and sizes of its program, in tiles that share their edges; a colour texture; masks as grey
+/// PNG; rivers with width and discharge as JSON; for godot and blender a GLB; for web tiles and pages, for print3d a
+/// solid; export.json, which says all of it in numbers.
+/// \return what was written; the same bytes for any number of threads
+/// \throws BadParameter for an unknown format, preset or mask, an option of another one or a size that it cannot have;
+/// for exr in a build without OpenEXR
+/// \throws BadInput when masks of rivers are asked for and there are none, the size would stretch the DEM by more than
+/// 1 %, a file exists already; as surface::close_gaps; as the readers
 ExportResult run_export(ExportParams const& params, Run const& run = {});
 
 } // namespace thalweg::exports

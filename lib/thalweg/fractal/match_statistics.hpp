@@ -98,12 +98,14 @@ MatchedDem match_statistics(Raster<float> const& dem, Targets const& targets,
                             std::vector<FixedHeight> const& fixed = {}, MatchParams const& params = {},
                             Run const& run = {});
 
+/// \internal
 /// Checks whether any DEM on the grid can have the statistics.
 /// \param dem [m] by cell; NaN: no data
 /// \param targets statistics to match
 /// \throws BadParameter with the numbers, as match_statistics
 void check_targets(Raster<float> const& dem, Targets const& targets);
 
+/// \internal
 /// Collects the heights to keep.
 /// \param dem [m] by cell; NaN: no data
 /// \param targets with extremes, if any

@@ -161,17 +161,17 @@ private:
 };
 
 /// An interpolation: level minus the sum of weights times variograms around the cells with heights.
-struct Kriged {
+struct KrigingWeights {
     double level = 0.0;          ///< [m]
     std::vector<double> weights; ///< sum 0, one per cell
 };
 
 /// Ordinary kriging of values at cells. Heights relative to the first cell have a covariance, which eliminates the
 /// unknown mean from the system.
-Kriged krige(std::vector<Cell> const& cells, std::vector<double> const& values, CoarseVariogram const& variogram,
-             Run const& run) {
+KrigingWeights krige(std::vector<Cell> const& cells, std::vector<double> const& values,
+                     CoarseVariogram const& variogram, Run const& run) {
     std::size_t const n = cells.size() - 1;
-    Kriged kriged{values[0], std::vector<double>(cells.size(), 0.0)};
+    KrigingWeights kriged{values[0], std::vector<double>(cells.size(), 0.0)};
     std::vector<double> rise(n);
     for (std::size_t i = 0; i < n; ++i) {
         rise[i] = values[i + 1] - values[0];
@@ -234,7 +234,7 @@ Terms terms_of(Conditioning const& c, std::vector<Cell> const& cells, Run const&
         residuals.push_back(static_cast<double>(coarse[cell]) -
                             (c.sigma > 0.0 ? terms.scale * terms.random[fine(cell)] : 0.0));
     }
-    Kriged const kriged = krige(cells, residuals, CoarseVariogram(coarse.grid(), c.hurst), run);
+    KrigingWeights const kriged = krige(cells, residuals, CoarseVariogram(coarse.grid(), c.hurst), run);
     run.at(0.7, "midpoint");
     terms.level = kriged.level;
     if (std::any_of(kriged.weights.begin(), kriged.weights.end(), [](double w) { return w != 0.0; })) {
@@ -430,7 +430,7 @@ StencilWeights stencil_weights(Stencil stencil, std::uint32_t known, double hurs
     return out;
 }
 
-Displaced midpoint(Raster<float> const& coarse, MidpointParams const& params, Run const& run) {
+DisplacedDem midpoint(Raster<float> const& coarse, MidpointParams const& params, Run const& run) {
     check_params(params);
     Refinement refinement;
     refinement.coarse = &coarse;
@@ -440,7 +440,7 @@ Displaced midpoint(Raster<float> const& coarse, MidpointParams const& params, Ru
     refinement.noise = params.noise;
     refinement.seed = params.seed;
     refinement.lanes = widest_lanes();
-    Displaced displaced;
+    DisplacedDem displaced;
     Grid const grid = result_grid(coarse.grid(), params);
     run.at(0.0, "midpoint");
     refinement.character = global_character(coarse, params, run);

@@ -27,7 +27,7 @@
 // Not for: erosion: the detail has no valleys and as many pits as peaks. H estimated from few
 // coarse cells says little.
 // Example:
-//     Displaced const fine = midpoint(dem, {.levels = 3, .hurst = 0.7, .seed = 5});
+//     DisplacedDem const fine = midpoint(dem, {.levels = 3, .hurst = 0.7, .seed = 5});
 //     Raster<float> const& dem_m = fine.dem; // every 8th cell has the bits of `dem`
 // More: docs/statistics.md, "What the numbers mean".
 
@@ -91,6 +91,7 @@ struct StencilWeights {
     double deviation = 0.0;          ///< in units of sigma r^H, r: distance of the nearest neighbours
 };
 
+/// \internal
 /// Computes the weights of known neighbours for a new point and the deviation of its noise.
 /// \param stencil any but exact
 /// \param known at least one bit of used_neighbours(stencil)
@@ -117,6 +118,7 @@ struct NoisePlace {
 /// Batch size: noise is made in multiples of this.
 inline constexpr std::int64_t noise_batch = 32;
 
+/// \internal
 /// Fills a row with numbers of mean 0 and variance 1, independent from place to place: a hash of seed, level, row and
 /// column. The same bytes for any split of a row and any Lanes.
 /// \param noise distribution
@@ -150,7 +152,7 @@ struct MidpointParams {
 };
 
 /// What midpoint() returns.
-struct Displaced {
+struct DisplacedDem {
     Raster<float> dem;        ///< [m] NaN: no data
     double hurst = 0.5;       ///< as used
     double sigma = 0.0;       ///< [m] as used
@@ -175,6 +177,6 @@ struct Displaced {
 ///
 /// Source: \cite zhang, equation 14 (Stencil::four); \cite fournier1982; \cite stein2002 (Stencil::exact);
 /// specification 1.6.
-Displaced midpoint(Raster<float> const& coarse, MidpointParams const& params = {}, Run const& run = {});
+DisplacedDem midpoint(Raster<float> const& coarse, MidpointParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::fractal

@@ -76,21 +76,21 @@ std::vector<std::uint32_t> curve(std::vector<Vec3> const& vertices) {
     return places;
 }
 
-struct Placed {
+struct PlacedTriangle {
     std::uint32_t place;
     Triangle triangle;
 };
 
 // Sorts by one half of the position; stable.
-void sort_by_half(std::vector<Placed>& from, std::vector<Placed>& to, unsigned shift) {
+void sort_by_half(std::vector<PlacedTriangle>& from, std::vector<PlacedTriangle>& to, unsigned shift) {
     std::vector<std::size_t> next(65537, 0);
-    for (Placed const& p : from) {
+    for (PlacedTriangle const& p : from) {
         ++next[((p.place >> shift) & 0xffffU) + 1];
     }
     for (std::size_t k = 1; k < next.size(); ++k) {
         next[k] += next[k - 1];
     }
-    for (Placed const& p : from) {
+    for (PlacedTriangle const& p : from) {
         to[next[(p.place >> shift) & 0xffffU]++] = p;
     }
     from.swap(to);
@@ -174,21 +174,23 @@ double height_on_plane(Vec3 const& a, Vec3 const& b, Vec3 const& c, Vec2 p) {
 
 void put_in_order(Tin& tin) {
     auto const places = curve(tin.vertices);
-    std::vector<Placed> sorted;
+    std::vector<PlacedTriangle> sorted;
     sorted.reserve(tin.triangles.size());
     for (Triangle t : tin.triangles) {
         std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
         sorted.push_back({places[t[0]], t});
     }
-    std::vector<Placed> spare(sorted.size());
+    std::vector<PlacedTriangle> spare(sorted.size());
     sort_by_half(sorted, spare, 0);
     sort_by_half(sorted, spare, 16);
     for (auto begin = sorted.begin(); begin != sorted.end();) {
-        auto const end = std::find_if(begin, sorted.end(), [&](Placed const& p) { return p.place != begin->place; });
-        std::sort(begin, end, [](Placed const& a, Placed const& b) { return a.triangle < b.triangle; });
+        auto const end =
+            std::find_if(begin, sorted.end(), [&](PlacedTriangle const& p) { return p.place != begin->place; });
+        std::sort(begin, end, [](PlacedTriangle const& a, PlacedTriangle const& b) { return a.triangle < b.triangle; });
         begin = end;
     }
-    std::transform(sorted.begin(), sorted.end(), tin.triangles.begin(), [](Placed const& p) { return p.triangle; });
+    std::transform(sorted.begin(), sorted.end(), tin.triangles.begin(),
+                   [](PlacedTriangle const& p) { return p.triangle; });
 }
 
 std::vector<std::array<double, 3>> half_cotangents(Tin const& tin, Measured measured) {

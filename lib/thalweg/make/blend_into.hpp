@@ -41,7 +41,7 @@ enum class PatchPlace : std::uint8_t {
 
 /// A blended DEM and its placement.
 struct BlendedDem {
-    blend::Pasted pasted;
+    blend::PastedDem pasted;
     PatchPlace place = PatchPlace::given;
     Vec2 at;                            ///< [m] the patch's centre
     std::int64_t outside = 0;           ///< cells of the mask off the source

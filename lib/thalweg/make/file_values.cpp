@@ -56,7 +56,7 @@ Tin in_unit(Tin tin, HeightUnit unit) {
     return tin;
 }
 
-std::optional<io::UserData> user_data(Made const& t, StreamNetwork const& plan) {
+std::optional<io::UserData> user_data(MakeResult const& t, StreamNetwork const& plan) {
     if (!t.planform.file.sources.knows_any()) {
         return std::nullopt;
     }
@@ -67,7 +67,7 @@ std::optional<io::UserData> user_data(Made const& t, StreamNetwork const& plan) 
     return user;
 }
 
-std::vector<io::ShortenedName> shortened_names(Made const& t) {
+std::vector<io::ShortenedName> shortened_names(MakeResult const& t) {
     auto const user = user_data(t, t.terrain.rivers.network.planform);
     if (!user) {
         return {};

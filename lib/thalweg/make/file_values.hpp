@@ -32,10 +32,10 @@ Tin in_unit(Tin tin, HeightUnit unit);
 // The user's columns of a terrain's rivers.
 
 /// What the file said of the lines that became these arcs; nothing for grown rivers.
-std::optional<io::UserData> user_data(Made const& t, StreamNetwork const& plan);
+std::optional<io::UserData> user_data(MakeResult const& t, StreamNetwork const& plan);
 
 /// The columns that have other names in the shapefiles.
-std::vector<io::ShortenedName> shortened_names(Made const& t);
+std::vector<io::ShortenedName> shortened_names(MakeResult const& t);
 
 /// Appends the contributing areas of the arcs that splitting confluences added: a piece upstream of where a tributary
 /// was moved to has lost the tributary's area, one downstream has gained it, so that what flows into a node still

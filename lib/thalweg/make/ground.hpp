@@ -25,10 +25,10 @@ struct OfDem {};
 struct OfNumbers {};
 
 /// By regression through points.
-struct Regressed {};
+struct ByRegression {};
 
-/// By dilation of the valley, as surface::Dilated.
-struct Dilated {
+/// By dilation of the valley, as surface::DilatedDem.
+struct ByDilation {
     std::vector<double> increments = {}; ///< [m] of each level
     std::int64_t levels = 0;
     double rise_m = 0.0;
@@ -36,7 +36,7 @@ struct Dilated {
 };
 
 /// By diffusion from rivers, ridges and points.
-struct Diffused {
+struct ByDiffusion {
     std::int64_t iterations = 0;
     double residual = 0.0; ///< relative
 };
@@ -73,8 +73,8 @@ struct Rebuilt : Equilibrium {
 };
 
 /// How a surface was made; nothing: there is none.
-using HowMade =
-    std::variant<std::monostate, OverTriangles, OfDem, OfNumbers, Regressed, Dilated, Diffused, Equilibrium, Rebuilt>;
+using HowMade = std::variant<std::monostate, OverTriangles, OfDem, OfNumbers, ByRegression, ByDilation, ByDiffusion,
+                             Equilibrium, Rebuilt>;
 
 /// Parameters of fractal detail, as used.
 struct DetailStatistics {
@@ -92,7 +92,7 @@ struct MatchedStatistics {
 struct PatchStatistics {
     std::int64_t cells = 0;  ///< replaced cells
     std::int64_t kept = 0;   ///< cells under it that rivers keep
-    double seam_max_m = 0.0; ///< as blend::Pasted
+    double seam_max_m = 0.0; ///< as blend::PastedDem
     double seam_rms_m = 0.0;
 };
 
@@ -110,7 +110,7 @@ struct Ground {
     /// \return how it is in equilibrium with its rivers; null: it is not
     Equilibrium const* equilibrium() const;
     /// \return how it was dilated; without increments: it was not
-    Dilated const& dilated() const;
+    ByDilation const& dilated() const;
 };
 
 } // namespace thalweg::make

@@ -98,7 +98,7 @@ Lakes lakes_of(recipe::Recipe const& recipe, Planform const& planform, network::
 }
 
 /// Gives lakes their levels, and their notes; warns of lakes with levels that are left out.
-void set_levels(Lakes const& wanted, network::Flooded& flooded) {
+void set_levels(Lakes const& wanted, network::FloodedLakes& flooded) {
     Channels& channels = flooded.drawn.channels;
     for (network::Lake const& lake : flooded.lakes) {
         if (double const level = wanted.level_of(lake.label); !std::isnan(level)) {
@@ -128,7 +128,7 @@ WithLakes with_lakes(recipe::Recipe const& recipe, Planform const& planform, net
     if (lakes.labels.cells() == 0) {
         return {std::move(rivers)};
     }
-    network::Flooded flooded = network::flood_lakes(rivers, lakes.labels, run);
+    network::FloodedLakes flooded = network::flood_lakes(rivers, lakes.labels, run);
     set_levels(lakes, flooded);
     append(lakes.notes, flooded.notes);
     bool const by_levels = !flooded.drawn.channels.lake_z.empty();

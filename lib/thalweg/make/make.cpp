@@ -76,8 +76,8 @@ recipe::Recipe recipe_of(recipe::Plan const& plan, Terrain const& terrain) {
     return recipe;
 }
 
-Made make(recipe::Recipe const& recipe, Run const& run) {
-    Made made;
+MakeResult make(recipe::Recipe const& recipe, Run const& run) {
+    MakeResult made;
     made.plan = recipe::resolve(recipe, run);
     made.planform = make_planform(made.plan, run);
     made.terrain = make_terrain(made.plan, made.planform, run);
@@ -86,7 +86,7 @@ Made make(recipe::Recipe const& recipe, Run const& run) {
     return made;
 }
 
-Timings timings_of(Made const& made) {
+Timings timings_of(MakeResult const& made) {
     Timings all = made.plan.timings_s;
     append(all, made.planform.timings_s);
     append(all, made.terrain.notes.timings_s);
@@ -94,7 +94,7 @@ Timings timings_of(Made const& made) {
     return all;
 }
 
-std::vector<Finding> findings_of(Made const& made) {
+std::vector<Finding> findings_of(MakeResult const& made) {
     std::vector<Finding> all = made.plan.findings;
     append(all, made.planform.findings);
     append(all, made.terrain.notes.findings);

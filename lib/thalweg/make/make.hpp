@@ -15,7 +15,7 @@
 namespace thalweg::make {
 
 /// A terrain with its plan and rivers.
-struct Made {
+struct MakeResult {
     recipe::Plan plan;
     Planform planform; ///< without arcs where the plan has no [network]
     Terrain terrain;
@@ -48,16 +48,16 @@ recipe::Recipe recipe_of(recipe::Plan const& plan, Terrain const& terrain);
 /// Makes a terrain from a recipe: rivers first, then the terrain around them; or terrain from statistics and points
 /// alone.
 /// \return the same terrain for the same recipe, with any Run
-Made make(recipe::Recipe const& recipe, Run const& run = {});
+MakeResult make(recipe::Recipe const& recipe, Run const& run = {});
 
 /// Collects the times of all stages.
 /// \param made a terrain
 /// \return [s] in order
-Timings timings_of(Made const& made);
+Timings timings_of(MakeResult const& made);
 
 /// Collects all that was found: on the recipe and its files, the rivers, the terrain, and by the checks.
 /// \param made a terrain
 /// \return in this order
-std::vector<Finding> findings_of(Made const& made);
+std::vector<Finding> findings_of(MakeResult const& made);
 
 } // namespace thalweg::make

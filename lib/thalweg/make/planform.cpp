@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/run/kept.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/core/run/result_cache.hpp>
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/import/land_and_sea.hpp>
@@ -21,7 +21,7 @@
 
 namespace thalweg::make {
 
-Typed type_rivers(StreamNetwork network, recipe::NetworkRecipe const& wanted, Run const& run) {
+TypedNetwork type_rivers(StreamNetwork network, recipe::NetworkRecipe const& wanted, Run const& run) {
     if (wanted.heights != recipe::Heights::rosgen && !(wanted.coast_m > 0.0)) {
         return {std::move(network), {}};
     }
@@ -40,20 +40,20 @@ Typed type_rivers(StreamNetwork network, recipe::NetworkRecipe const& wanted, Ru
 namespace {
 
 /// Rivers with bends, and their file as it follows them.
-struct Bent {
+struct BentRivers {
     StreamNetwork network;
     RiverFile file;
 };
 
 /// Bends rivers where the plan wants it; where there is a sea, none leaves the land.
-Bent bent(recipe::Recipe const& recipe, StreamNetwork network, RiverFile file, Grid const& grid, Mask const& land,
-          StageLog& stage_log, Run const& run) {
+BentRivers bent(recipe::Recipe const& recipe, StreamNetwork network, RiverFile file, Grid const& grid, Mask const& land,
+                StageLog& stage_log, Run const& run) {
     if (!recipe::stage::meander.runs(recipe)) {
         return {std::move(network), std::move(file)};
     }
     flow::ContributingAreas const areas = flow::areas_nearest(network, grid, run);
     network::MeanderParams const params{.gain = *recipe.network->meander, .seed = recipe.seed};
-    network::Meandered meandered = stage_log.stage(recipe::stage::meander.name, [&] {
+    network::MeanderedNetwork meandered = stage_log.stage(recipe::stage::meander.name, [&] {
         return land.cells() > 0 ? network::meander(network, land, areas.ds_area_m2, params, run)
                                 : network::meander(network, grid, areas.ds_area_m2, params, run);
     });
@@ -98,7 +98,7 @@ std::vector<Finding> long_extensions(std::vector<Finding> const& notes, StreamNe
 }
 
 /// Rivers whose outlets lie where rivers may end.
-struct Carried {
+struct RiversToBorder {
     StreamNetwork network;
     Mask land;
     std::vector<Finding> notes;
@@ -106,9 +106,9 @@ struct Carried {
 
 /// Carries outlets inside the grid to where rivers may end, if the recipe wants it. Those at the sea reach it in any
 /// case; what lies beside a river is land. keeps_heights: the rivers have heights, so that none may fall into another.
-Carried with_outlets_carried(recipe::NetworkRecipe const& wanted, StreamNetwork network, Grid const& grid, Mask land,
-                             bool keeps_heights, Run const& run) {
-    Carried result{std::move(network), std::move(land), {}};
+RiversToBorder with_outlets_carried(recipe::NetworkRecipe const& wanted, StreamNetwork network, Grid const& grid,
+                                    Mask land, bool keeps_heights, Run const& run) {
+    RiversToBorder result{std::move(network), std::move(land), {}};
     if (wanted.source == recipe::Source::forest) {
         return result; // its outlets lie on its coast
     }
@@ -116,7 +116,7 @@ Carried with_outlets_carried(recipe::NetworkRecipe const& wanted, StreamNetwork 
     recipe::InlandEnds const inland = wanted.inland;
     bool const all = inland != recipe::InlandEnds::sink;
     network::CarryParams const params{.join = !keeps_heights};
-    auto const take = [&](network::Carried carried) {
+    auto const take = [&](network::CarriedNetwork carried) {
         append(result.notes, long_extensions(carried.notes, result.network));
         append(result.notes, std::move(carried.notes));
         result.network = std::move(carried.network);
@@ -133,7 +133,7 @@ Carried with_outlets_carried(recipe::NetworkRecipe const& wanted, StreamNetwork 
     // A river that is carried may close the way of another.
     for (std::ptrdiff_t moved = 1, rounds = 0; moved > 0 && rounds < 4; ++rounds) {
         result.land = network::land_along_rivers(std::move(result.land), result.network);
-        network::Carried carried =
+        network::CarriedNetwork carried =
             network::carry_outlets(result.network, result.land, all ? grid.cells() : at_sea_cells, params);
         moved = std::ranges::count_if(carried.notes, is_extension);
         take(std::move(carried));
@@ -151,9 +151,9 @@ std::size_t vertices_of(StreamNetwork const& plan) {
 }
 
 /// Rivers that run from cell to cell keep no corner where a branch was; what that shortens is measured again.
-network::Pruned prune(StreamNetwork const& plan, recipe::NetworkRecipe const& rivers, double length_cells,
-                      double cell_m, Run const& run) {
-    network::Pruned pruned = network::prune(plan, {length_cells * cell_m, cell_m}, run);
+network::PrunedNetwork prune(StreamNetwork const& plan, recipe::NetworkRecipe const& rivers, double length_cells,
+                             double cell_m, Run const& run) {
+    network::PrunedNetwork pruned = network::prune(plan, {length_cells * cell_m, cell_m}, run);
     if (rivers.source != recipe::Source::dla && rivers.source != recipe::Source::forest) {
         return pruned;
     }
@@ -190,17 +190,17 @@ std::vector<Finding> pruned_outlets(StreamNetwork const& before, StreamNetwork c
 }
 
 /// Rivers without their short branches.
-struct Pruned {
+struct PrunedRivers {
     StreamNetwork network;
     RiverFile file;
     std::int64_t arcs_before;
     std::vector<Finding> notes;
 };
 
-Pruned pruned(recipe::NetworkRecipe const& rivers, StreamNetwork const& network, RiverFile file, double cell_m,
-              StageLog& stage_log, Run const& run) {
-    network::Pruned kept = stage_log.stage(recipe::stage::prune.name,
-                                           [&] { return prune(network, rivers, *rivers.prune_cells, cell_m, run); });
+PrunedRivers pruned(recipe::NetworkRecipe const& rivers, StreamNetwork const& network, RiverFile file, double cell_m,
+                    StageLog& stage_log, Run const& run) {
+    network::PrunedNetwork kept = stage_log.stage(
+        recipe::stage::prune.name, [&] { return prune(network, rivers, *rivers.prune_cells, cell_m, run); });
     stage_log.say(
         fmt::format("L={}   {} of {} arcs kept", *rivers.prune_cells, kept.network.arc_count(), kept.arcs_before));
     std::vector<Finding> notes;
@@ -212,7 +212,7 @@ Pruned pruned(recipe::NetworkRecipe const& rivers, StreamNetwork const& network,
     return {std::move(kept.network), std::move(file), kept.arcs_before, std::move(notes)};
 }
 
-NetworkStatistics statistics_of(NetworkStatistics statistics, Pruned const& kept) {
+NetworkStatistics statistics_of(NetworkStatistics statistics, PrunedRivers const& kept) {
     statistics.arcs_traced = kept.arcs_before;
     statistics.arcs_kept = static_cast<std::int64_t>(kept.network.arc_count());
     return statistics;
@@ -232,7 +232,7 @@ std::int64_t bytes_of(StreamNetwork const& network) {
 }
 
 TimedSource source_of(RiversInput const& in, Run const& run) {
-    return kept_or_made(
+    return cached(
         run, "source", [&] { return recipe::cache_key(in.recipe); },
         [&] {
             StageLog stage_log(run);
@@ -255,18 +255,18 @@ DrawnRivers drawn(RiversInput const& in, Run const& run) {
     stage_log.add(made.timings_s);
     stage_log.find(made.findings);
     SourceRivers& source = made.rivers;
-    Pruned kept = pruned(wanted, source.network, std::move(source.file), source.grid.cell_m, stage_log, run);
+    PrunedRivers kept = pruned(wanted, source.network, std::move(source.file), source.grid.cell_m, stage_log, run);
     stage_log.find(kept.notes);
     NetworkStatistics statistics = statistics_of(std::move(source.statistics), kept);
-    Carried carried = with_outlets_carried(wanted, std::move(kept.network), source.grid, std::move(source.land),
-                                           source.file_heights.has_value(), run);
+    RiversToBorder carried = with_outlets_carried(wanted, std::move(kept.network), source.grid, std::move(source.land),
+                                                  source.file_heights.has_value(), run);
     stage_log.find(carried.notes);
     refuse_if<BadParameter>(recipe::stage::meander.runs(in.recipe) && source.file_heights,
                             "network.meander cannot bend rivers whose heights come from their "
                             "file; set network.heights = \"graded\" or leave meander out");
-    Bent rivers =
+    BentRivers rivers =
         bent(in.recipe, std::move(carried.network), std::move(kept.file), source.grid, carried.land, stage_log, run);
-    Typed typed = type_rivers(std::move(rivers.network), wanted, run);
+    TypedNetwork typed = type_rivers(std::move(rivers.network), wanted, run);
     std::optional<ElevatedNetwork> file_heights;
     if (source.file_heights) {
         file_heights = network::keep_heights(typed.network, *source.file_heights);
@@ -286,7 +286,7 @@ DrawnRivers drawn(RiversInput const& in, Run const& run) {
 } // namespace
 
 DrawnRivers draw_rivers(RiversInput const& in, Run const& run) {
-    return kept_or_made(
+    return cached(
         run, "planform", [&] { return recipe::cache_key(in.recipe); }, [&] { return drawn(in, run); },
         [](DrawnRivers const& kept) {
             constexpr std::int64_t copies = 4;

@@ -10,8 +10,8 @@
 
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/run/kept.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/core/run/result_cache.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/growth/dla/grow_dla.hpp>
 #include <thalweg/growth/forest/grow_forest.hpp>
@@ -97,7 +97,7 @@ SourceRivers rivers_of_cluster(recipe::Recipe const& recipe, StageLog& stage_log
         stage_log.stage(recipe::stage::trace.name, [&] { return network::trace(skeleton, {framed.mouth}, run); });
     Grid grid = framed.mask.grid();
     if (turn_deg != 0.0) {
-        network::Rotated turned =
+        network::RotatedNetwork turned =
             network::rotate(network, turned_frame(branch, grid, recipe.grid, turn_deg), {turn_deg});
         network = std::move(turned.network);
         grid = turned.grid;
@@ -410,7 +410,7 @@ Mask land_of_coastlines(RiverLines const& lines, Grid const& grid, StageLog& sta
 }
 
 /// The file's data besides the network.
-RiverFile file_of(RiverLines const& lines, network::Imported const& imported) {
+RiverFile file_of(RiverLines const& lines, network::ImportedNetwork const& imported) {
     RiverFile file;
     file.secondary = lines.secondary;
     file.attributes = lines.attributes;
@@ -444,8 +444,9 @@ double noise_of(std::vector<std::vector<double>> const& arc_z) {
 }
 
 /// The file's heights. Where they rise downstream by noise they are lowered, which is told.
-ElevatedNetwork heights_without_noise(RiverLines const& lines, network::Imported const& imported, StageLog& stage_log) {
-    network::Lowered lowered = network::lower_rises(imported.network, imported.arc_z);
+ElevatedNetwork heights_without_noise(RiverLines const& lines, network::ImportedNetwork const& imported,
+                                      StageLog& stage_log) {
+    network::LoweredNetwork lowered = network::lower_rises(imported.network, imported.arc_z);
     double const most_m = *std::ranges::max_element(lowered.by_m);
     if (!(most_m > 0.0) || most_m > noise_of(imported.arc_z)) {
         return network::take_file_heights({imported.network, imported.arc_z, {}}, lines);
@@ -474,7 +475,7 @@ ElevatedNetwork heights_without_noise(RiverLines const& lines, network::Imported
 
 /// The heights of the file, if the recipe uses them.
 std::optional<ElevatedNetwork> heights_of_file(recipe::Heights heights, RiverLines const& lines,
-                                               network::Imported const& imported, StageLog& stage_log) {
+                                               network::ImportedNetwork const& imported, StageLog& stage_log) {
     bool const or_straight =
         heights == recipe::Heights::soft || heights == recipe::Heights::fixed || heights == recipe::Heights::ends;
     if (heights == recipe::Heights::file || (or_straight && lines.has_z)) {
@@ -495,7 +496,7 @@ SourceRivers rivers_of_lines(RiversInput const& in, StageLog& stage_log, Run con
                                        .dem = in.line_dem.cells() > 0 ? &in.line_dem : nullptr,
                                        .frame = &*in.grid,
                                        .drains_lakes = !may_end};
-    network::Imported imported =
+    network::ImportedNetwork imported =
         stage_log.stage(recipe::stage::adopt.name, [&] { return network::import_lines(in.lines, params, run); });
     SourceRivers rivers;
     rivers.grid = *in.grid;
@@ -556,7 +557,7 @@ SourceRivers rivers_by_source(RiversInput const& in, StageLog& stage_log, Run co
 
 growth::Cluster cluster_of(recipe::Recipe const& recipe, Run const& run) {
     recipe::Recipe const read = recipe::recipe_for_cluster(recipe);
-    return kept_or_made(
+    return cached(
         run, "cluster", [&] { return recipe::cache_key(read); },
         [&] { return growth::grow_dla(read.network->dla, run); },
         [](growth::Cluster const& cluster) { return static_cast<std::int64_t>(cluster.cells.size() * sizeof(Cell)); });

@@ -22,13 +22,13 @@
 namespace thalweg::make {
 namespace {
 
-struct Elevated {
+struct RiversWithHeights {
     ElevatedNetwork network;
     network::HeightReport repair = {};                 ///< under modes that set heights
     std::optional<flow::ContributingAreas> areas = {}; ///< as RaisedRivers
 };
 
-Elevated elevated(recipe::Recipe const& recipe, Planform const& planform, Run const& run) {
+RiversWithHeights elevated(recipe::Recipe const& recipe, Planform const& planform, Run const& run) {
     recipe::NetworkRecipe const& wanted = *recipe.network;
     if (planform.file_heights) {
         return {*planform.file_heights};
@@ -40,15 +40,15 @@ Elevated elevated(recipe::Recipe const& recipe, Planform const& planform, Run co
     if (wanted.heights == recipe::Heights::graded) {
         flow::ContributingAreas areas = flow::areas_nearest(planform.network, planform.grid, run);
         double const cell = planform.grid.cell_m * planform.grid.cell_m;
-        network::Graded graded = network::set_heights_graded(planform.network, areas.us_area_m2, areas.ds_area_m2,
-                                                             {wanted.slope, wanted.concavity, cell}, run);
+        network::GradedNetwork graded = network::set_heights_graded(
+            planform.network, areas.us_area_m2, areas.ds_area_m2, {wanted.slope, wanted.concavity, cell}, run);
         return {std::move(graded.network), {}, std::move(areas)};
     }
     network::HeightMode const mode = wanted.heights == recipe::Heights::straight ? network::HeightMode::straight
                                      : wanted.heights == recipe::Heights::along_stream
                                          ? network::HeightMode::along_stream
                                          : network::HeightMode::straight_repaired;
-    network::Elevated set = network::set_heights(planform.network, {mode, wanted.slope}, run);
+    network::NetworkWithHeights set = network::set_heights(planform.network, {mode, wanted.slope}, run);
     return {std::move(set.network), set.report};
 }
 
@@ -190,8 +190,9 @@ RaisedRivers raise_rivers(recipe::Recipe const& recipe, Raster<float> const& dem
                                   laid.statistics.max_lowered_m));
         return laid;
     }
-    Elevated raised = stage_log.stage(recipe::stage::raise.name, [&] { return elevated(recipe, planform, run); });
-    network::Rasterised cells = network::rasterise(raised.network, planform.grid);
+    RiversWithHeights raised =
+        stage_log.stage(recipe::stage::raise.name, [&] { return elevated(recipe, planform, run); });
+    network::RasterisedRivers cells = network::rasterise(raised.network, planform.grid);
     return {std::move(raised.network), std::move(cells.valley),
             HeightsStatistics{raised.repair, cells.lowered_cells, cells.max_lowered_m}, std::move(raised.areas)};
 }

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/cells.hpp>
-#include <thalweg/core/run/kept.hpp>
+#include <thalweg/core/run/result_cache.hpp>
 #include <thalweg/core/run/stage_log.hpp>
 #include <thalweg/make/blend_into.hpp>
 #include <thalweg/make/internal/ground.hpp>
@@ -54,7 +54,7 @@ Surface undrained(SurfaceInput const& from, std::optional<Grid> const& planned, 
 
 /// The same, kept for the next terrain that is made from it.
 Surface drawn(TerrainInput const& in, Run const& run) {
-    return kept_or_made(
+    return cached(
         run, "surface", [&] { return recipe::cache_key(in.surface.recipe); },
         [&] { return undrained(in.surface, in.grid, run); },
         [](Surface const& made) {
@@ -116,7 +116,7 @@ Surface with_patches(Surface surface, recipe::Recipe const& recipe, StageLog& st
 }
 
 /// A surface after hydrological conditioning, where the recipe asks for it.
-struct Conditioned {
+struct ConditionedDem {
     Raster<float> dem;
     bool is_conditioned = false;
     flow::DemChange banks = {};
@@ -124,8 +124,8 @@ struct Conditioned {
 };
 
 /// Conditions a surface. Water leaves the land in sinks: meanwhile they are holes in it.
-Conditioned conditioned(recipe::Recipe const& recipe, Raster<float> dem, Valley valley, StreamNetwork const& network,
-                        StageLog& stage_log, Run const& run) {
+ConditionedDem conditioned(recipe::Recipe const& recipe, Raster<float> dem, Valley valley, StreamNetwork const& network,
+                           StageLog& stage_log, Run const& run) {
     if (!recipe::stage::carve.runs(recipe)) {
         return {std::move(dem)};
     }
@@ -183,7 +183,7 @@ RiversInBed with_side_valleys(RiversInBed made, recipe::NetworkRecipe const& wan
                               static_cast<std::int64_t>(network.planform.arc_count()) - found.grown));
     Grid const& grid = dem.grid();
     // Lengths at which each is kept.
-    Typed typed = type_rivers(network::prune(network.planform, {0.0, grid.cell_m}, run).network, wanted, run);
+    TypedNetwork typed = type_rivers(network::prune(network.planform, {0.0, grid.cell_m}, run).network, wanted, run);
     network.planform = std::move(typed.network);
     for (ArcId a = 0; a < network.planform.arc_count(); ++a) {
         Arc const& of = network.planform.arc(a);
@@ -216,7 +216,7 @@ Terrain terrain_with_surface(TerrainInput const& in, Run const& run) {
     }
     surface = with_patches(std::move(surface), recipe, stage_log, run);
     StreamNetwork const& network = surface.rivers.network.planform;
-    Conditioned drained =
+    ConditionedDem drained =
         conditioned(recipe, std::move(surface.ground.dem), surface.bed.valley, network, stage_log, run);
     show(drained.dem, true, run);
     flow::FlowField drainage = drainage_of(recipe, drained.dem, network, stage_log, run);

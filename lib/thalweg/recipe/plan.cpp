@@ -11,8 +11,8 @@
 
 #include <thalweg/blend/mask_polygons.hpp>
 #include <thalweg/core/cells.hpp>
-#include <thalweg/core/run/kept.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/core/run/result_cache.hpp>
 #include <thalweg/growth/forest/coast.hpp>
 #include <thalweg/growth/forest/grow_forest.hpp>
 #include <thalweg/io/crs/crs.hpp>
@@ -283,7 +283,7 @@ Plan with_heights_of_lines(Plan plan, RiverLines const& lines) {
 Plan plan_lines(Recipe recipe, Raster<float> const& raster, StageLog& stage_log, Run const& run) {
     Recipe const of_lines = recipe_for_lines(recipe);
     RiverLines lines = stage_log.stage(stage::read.name, [&] {
-        return kept_or_made(
+        return cached(
             run, "lines", [&] { return cache_key(of_lines); }, [&] { return read_lines(of_lines, run); },
             [](RiverLines const& read) {
                 constexpr std::int64_t of_line = 1024; // vertices and attributes
@@ -475,7 +475,7 @@ OnRaster with_raster(Recipe const& recipe, StageLog& stage_log, Run const& run) 
     require_files(recipe);
     Recipe const of_raster = recipe_for_raster(recipe);
     OnRaster on = stage_log.stage(stage::raster.name, [&] {
-        return kept_or_made(
+        return cached(
             run, "raster", [&] { return cache_key(of_raster); }, [&] { return settle_on_raster(of_raster, run); },
             [](OnRaster const& made) { return made.dem.cells() * static_cast<std::int64_t>(sizeof(float)); });
     });

@@ -9,9 +9,9 @@
 #include <fmt/ranges.h>
 
 #include <thalweg/core/append.hpp>
-#include <thalweg/core/run/kept.hpp>
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/core/run/result_cache.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/mesh/points.hpp>
@@ -179,8 +179,8 @@ std::vector<Finding> conversions(Recipe const& recipe, Grid const& grid, Run con
         return notes;
     };
     constexpr std::int64_t of_note = 256;
-    return kept_or_made(run, "conversions", made_from, look,
-                        [](auto const& notes) { return of_note * static_cast<std::int64_t>(notes.size()); });
+    return cached(run, "conversions", made_from, look,
+                  [](auto const& notes) { return of_note * static_cast<std::int64_t>(notes.size()); });
 }
 
 std::vector<std::string> file_names(Recipe const& recipe) {

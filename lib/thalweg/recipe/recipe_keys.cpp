@@ -144,7 +144,7 @@ private:
         refuse_if<BadParameter>(!range.holds(x), "{} is outside its range {}", x, range.text());
     }
     void require_fit() const {
-        Allowed const& allowed = key.row->allowed;
+        AllowedValues const& allowed = key.row->allowed;
         if (allowed.fits != nullptr && !allowed.fits(value)) {
             refuse_value(allowed.form, value);
         }

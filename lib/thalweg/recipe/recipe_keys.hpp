@@ -62,19 +62,20 @@ struct Word {
 };
 
 /// What a value may be: a number in a range, one of several words, or what a form says.
-struct Allowed {
+struct AllowedValues {
     KeyRange range = {};
     char const* form = "";                ///< in words
     bool (*fits)(Value const&) = nullptr; ///< false, or an error of its own: refused
     std::array<Word, 10> words = {};
     std::vector<std::string> (*more_words)() = nullptr; ///< those that another table has
 
-    constexpr Allowed() = default;
-    constexpr Allowed(double least, double most, bool open = false) : range{least, most, open} {}
-    constexpr Allowed(char const* of_form, bool (*test)(Value const&) = nullptr) : form(of_form), fits(test) {}
-    constexpr Allowed(std::vector<std::string> (*of)(), char const* of_form = "", bool (*test)(Value const&) = nullptr)
+    constexpr AllowedValues() = default;
+    constexpr AllowedValues(double least, double most, bool open = false) : range{least, most, open} {}
+    constexpr AllowedValues(char const* of_form, bool (*test)(Value const&) = nullptr) : form(of_form), fits(test) {}
+    constexpr AllowedValues(std::vector<std::string> (*of)(), char const* of_form = "",
+                            bool (*test)(Value const&) = nullptr)
         : form(of_form), fits(test), more_words(of) {}
-    constexpr Allowed(std::initializer_list<Word> of) { std::copy(of.begin(), of.end(), words.begin()); }
+    constexpr AllowedValues(std::initializer_list<Word> of) { std::copy(of.begin(), of.end(), words.begin()); }
 };
 
 /// What few keys have.
@@ -93,7 +94,7 @@ struct Row {
     char const* path;
     KeyKind kind;
     char const* unit;
-    Allowed allowed;
+    AllowedValues allowed;
     Condition used; ///< when it has an effect, in a recipe that has the section
     char const* meaning;
     Field (*field)(Recipe&, Item);

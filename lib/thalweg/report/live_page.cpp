@@ -50,7 +50,8 @@ std::optional<LiveHeights> live_heights(Raster<float> const& dem, Grid const& gr
     return heights;
 }
 
-std::string live_scene(make::Made const& made, std::string const& recipe, std::string const& command, Run const& run) {
+std::string live_scene(make::MakeResult const& made, std::string const& recipe, std::string const& command,
+                       Run const& run) {
     PageParams params = page_params_of(made, recipe);
     params.command = command;
     if (made.terrain.has_surface()) {
@@ -66,8 +67,8 @@ std::string live_scene(make::Made const& made, std::string const& recipe, std::s
                        io::packed(lines.bytes), water.empty() ? "" : io::packed(water));
 }
 
-make::Made rivers_to_be(recipe::Recipe const& recipe, make::Planform const& planform) {
-    make::Made made;
+make::MakeResult planform_preview(recipe::Recipe const& recipe, make::Planform const& planform) {
+    make::MakeResult made;
     made.recipe = recipe;
     made.terrain.grid = planform.grid;
     StreamNetwork const& network = planform.network;

@@ -55,13 +55,13 @@ std::optional<LiveHeights> live_heights(Raster<float> const& dem, Grid const& gr
 /// \param recipe its text
 /// \param command that makes it again
 /// \return without braces
-std::string live_scene(make::Made const& made, std::string const& recipe, std::string const& command,
+std::string live_scene(make::MakeResult const& made, std::string const& recipe, std::string const& command,
                        Run const& run = {});
 
 /// \internal
 /// Rivers whose terrain is yet to be made, at height 0.
 /// \return for live_scene()
-make::Made rivers_to_be(recipe::Recipe const& recipe, make::Planform const& planform);
+make::MakeResult planform_preview(recipe::Recipe const& recipe, make::Planform const& planform);
 
 /// The arms of a cluster in the four directions, of which one can become the rivers.
 struct ClusterArms {

@@ -420,7 +420,7 @@ std::string html_text(std::string const& text) {
     return out;
 }
 
-PageLines lines_of_page(make::Made const& made) {
+PageLines lines_of_page(make::MakeResult const& made) {
     StreamNetwork const& plan = made.terrain.rivers.network.planform;
     RidgeLines const& ridges = made.terrain.ground.ridges;
     std::vector<std::vector<Vec2>> ridges_in_plan;
@@ -435,7 +435,7 @@ PageLines lines_of_page(make::Made const& made) {
     return page_lines(lines, made.terrain.grid);
 }
 
-std::string page(make::Made const& made, PageParams const& params, Run const& run) {
+std::string page(make::MakeResult const& made, PageParams const& params, Run const& run) {
     std::optional<PageHeights> const heights =
         made.terrain.has_surface() ? page_heights(made.terrain.ground.dem, run) : std::nullopt;
     run.check();
@@ -455,7 +455,7 @@ std::string page(make::Made const& made, PageParams const& params, Run const& ru
 std::string scene_page(Scene const& scene, std::vector<std::string> const& notes, std::string const& command,
                        Run const& run) {
     refuse_if<BadInput>(!scene.dem, "report.scene_page: there is no DEM to show");
-    make::Made made;
+    make::MakeResult made;
     made.recipe.output.title = scene.title;
     made.terrain = terrain_of(scene, run);
     made.assessment = assessment_of(scene, made.terrain, run);

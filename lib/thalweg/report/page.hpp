@@ -32,13 +32,13 @@ struct PageParams {
 
 /// What the page of a terrain shows beside it, without summits.
 /// \param recipe its text
-PageParams page_params_of(make::Made const& made, std::string recipe);
+PageParams page_params_of(make::MakeResult const& made, std::string recipe);
 
 /// Makes report.html of a terrain: one page that a browser opens without a network connection. It is the page built
 /// into the library, filled as web/README.md describes. Titles and file names are escaped; invalid UTF-8 becomes
 /// U+FFFD.
 /// \throws IoError when GDAL fails to compress
-std::string page(make::Made const& made, PageParams const& params = {}, Run const& run = {});
+std::string page(make::MakeResult const& made, PageParams const& params = {}, Run const& run = {});
 
 /// Heights in the format of the report page (web/README.md).
 struct PageHeights {
@@ -91,7 +91,7 @@ struct PageLines {
 PageLines page_lines(std::span<std::span<Vec2 const> const> lines, Grid const& grid);
 
 /// The lines of a page: the arcs by number, then the ridges.
-PageLines lines_of_page(make::Made const& made);
+PageLines lines_of_page(make::MakeResult const& made);
 
 /// The means of squares of cells x cells; NaN: none of its cells has a height.
 Raster<float> mean_of_squares(Raster<float> const& dem, std::int64_t cells);
@@ -127,7 +127,7 @@ std::string fill_page(std::string_view page, PageParts const& parts);
 /// that are not numbers. A metric has "asked" only if the recipe sets it.
 /// \param heights,lines as on the page; lines are the arcs by number, then the ridges
 /// \return one line of JSON without '<'
-std::string page_data(make::Made const& made, PageParams const& params, std::optional<PageHeights> const& heights,
+std::string page_data(make::MakeResult const& made, PageParams const& params, std::optional<PageHeights> const& heights,
                       PageLines const& lines);
 
 /// Makes the report page of a scene: any DEM, with or without rivers, measured and routed.

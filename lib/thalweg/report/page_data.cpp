@@ -192,7 +192,7 @@ ordered_json heights_object(std::optional<PageHeights> const& heights) {
             {"min", heights->min},     {"max", heights->max},       {"nodata", heights->nodata}};
 }
 
-ordered_json arcs_object(make::Made const& t, PageLines const& lines) {
+ordered_json arcs_object(make::MakeResult const& t, PageLines const& lines) {
     ordered_json id = ordered_json::array();
     ordered_json downstream = ordered_json::array();
     ordered_json persistence = ordered_json::array();
@@ -226,7 +226,7 @@ ordered_json arcs_object(make::Made const& t, PageLines const& lines) {
             {"n", n}};
 }
 
-ordered_json ridges_object(make::Made const& t, PageLines const& lines) {
+ordered_json ridges_object(make::MakeResult const& t, PageLines const& lines) {
     if (t.terrain.ground.ridges.lines.empty()) {
         return nullptr;
     }
@@ -318,7 +318,7 @@ ordered_json sea_object(std::optional<Sea> const& sea) {
     return sea ? ordered_json{{"level", sea->level_m}, {"around", sea->is_around}} : ordered_json(nullptr);
 }
 
-ordered_json curve_object(make::Made const& t) {
+ordered_json curve_object(make::MakeResult const& t) {
     if (!t.terrain.has_surface() || !t.recipe.surface || t.terrain.ground.dilated().increments.empty()) {
         return nullptr;
     }
@@ -331,7 +331,7 @@ ordered_json curve_object(make::Made const& t) {
     return {{"name", t.recipe.surface->dilate.increment.increment}, {"points", thinned(points)}};
 }
 
-ordered_json hypsometry_object(make::Made const& t) {
+ordered_json hypsometry_object(make::MakeResult const& t) {
     if (!t.assessment.hypsometry) {
         return nullptr;
     }
@@ -361,7 +361,7 @@ private:
 };
 
 /// The target of [statistics] with the name of a residual.
-std::optional<double> target_value(make::Made const& t, char const* name) {
+std::optional<double> target_value(make::MakeResult const& t, char const* name) {
     if (t.terrain.ground.matched) {
         for (fractal::Residual const& r : t.terrain.ground.matched->projection.residuals) {
             if (r.name == name) {
@@ -372,7 +372,7 @@ std::optional<double> target_value(make::Made const& t, char const* name) {
     return std::nullopt;
 }
 
-void add_land(make::Made const& t, Figures& figures) {
+void add_land(make::MakeResult const& t, Figures& figures) {
     measure::Statistics const& s = *t.assessment.statistics;
     figures.add("mean height", target_value(t, "mean"), to_millimetres(s.mean), "m");
     figures.add("standard deviation", target_value(t, "std"), to_millimetres(s.std), "m");
@@ -393,7 +393,7 @@ void add_land(make::Made const& t, Figures& figures) {
     figures.add("cells in pits", t.assessment.pits, "");
 }
 
-void add_rivers(make::Made const& t, std::vector<Stem> const& stems, Figures& figures) {
+void add_rivers(make::MakeResult const& t, std::vector<Stem> const& stems, Figures& figures) {
     std::optional<recipe::NetworkRecipe> const& wanted = t.recipe.network;
     double const length = std::accumulate(t.terrain.rivers.network.planform.length_m().begin(),
                                           t.terrain.rivers.network.planform.length_m().end(), 0.0);
@@ -503,7 +503,7 @@ ordered_json against_on_page(make::Against const& against, make::Terrain const& 
               {"image", "data:image/png;base64," + image}}}};
 }
 
-ordered_json timings_array(make::Made const& t) {
+ordered_json timings_array(make::MakeResult const& t) {
     ordered_json out = ordered_json::array();
     for (StageTime const& time : make::timings_of(t)) {
         out.push_back({time.stage, to_millimetres(time.wall_s)});
@@ -521,7 +521,7 @@ std::vector<Finding> chosen(std::vector<Finding> const& findings, bool (*is_one)
     return some;
 }
 
-ordered_json notes_array(make::Made const& t, std::vector<Finding> const& findings,
+ordered_json notes_array(make::MakeResult const& t, std::vector<Finding> const& findings,
                          std::optional<PageHeights> const& heights, std::vector<std::string> const& further) {
     ordered_json out = further;
     for (Finding const& finding : findings) {
@@ -567,7 +567,7 @@ std::string without_tags(std::string const& json) {
     return out;
 }
 
-std::string page_data(make::Made const& t, PageParams const& params, std::optional<PageHeights> const& heights,
+std::string page_data(make::MakeResult const& t, PageParams const& params, std::optional<PageHeights> const& heights,
                       PageLines const& lines) {
     std::vector<Stem> const stems = stems_of(t.terrain.rivers);
     std::vector<Finding> const findings = make::findings_of(t);

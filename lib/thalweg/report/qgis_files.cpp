@@ -89,7 +89,7 @@ private:
 
 } // namespace
 
-void write_qgis_files(make::Made const& made, std::string const& title, io::OutputFolder const& out) {
+void write_qgis_files(make::MakeResult const& made, std::string const& title, io::OutputFolder const& out) {
     using Kind = io::QgisLayer::Kind;
     HeightUnit const unit = made.recipe.output.units;
     std::string const unit_name = name_of(unit);

@@ -129,7 +129,7 @@ std::optional<ElevatedNetwork> rivers_on(Raster<float> const& dem, std::string c
                             .layer = lines.name});
         return std::nullopt;
     }
-    network::Imported imported = network::import_lines(lines, {}, run);
+    network::ImportedNetwork imported = network::import_lines(lines, {}, run);
     if (!imported.arc_z.empty()) {
         try {
             return network::take_file_heights(imported, lines);

@@ -31,8 +31,8 @@ struct SceneRead {
 /// Reads everything that can be drawn. source: a folder written by make (dem.tif, network.gpkg, recipe.toml,
 /// report.json, if present) or a raster of heights (io::read_drawable). network: "" or a file of river lines, clipped
 /// to the DEM, imported and ordered, with the file's heights if these fall everywhere, else the DEM's. The title is
-/// from the recipe or the raster's name. \throws BadInput when the folder contains nothing to draw; as the readers and
-/// network::import_lines
+/// from the recipe or the raster's name.
+/// \throws BadInput when the folder contains nothing to draw; as the readers and network::import_lines
 SceneRead read_scene(ReadSceneParams const& params, Run const& run);
 
 } // namespace thalweg::report

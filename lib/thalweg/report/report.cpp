@@ -133,7 +133,7 @@ ordered_json streams_object(network::StreamCounts const& counts) {
 }
 
 /// Tokunaga's numbers of side branches: of the network as drawn, and of the tree it was grown from.
-ordered_json tokunaga_object(make::Made const& t) {
+ordered_json tokunaga_object(make::MakeResult const& t) {
     ordered_json out{{"drawn", streams_object(t.terrain.rivers.streams)}};
     if (t.planform.statistics.tokunaga &&
         !t.recipe.network->tokunaga.strokes.empty()) { // each has a tree and lambda of its own
@@ -175,7 +175,7 @@ ordered_json dem_laws_object(make::DemLaws const& found) {
     return out;
 }
 
-ordered_json network_object(make::Made const& t) {
+ordered_json network_object(make::MakeResult const& t) {
     StreamNetwork const& plan = t.terrain.rivers.network.planform;
     double const length = std::accumulate(plan.length_m().begin(), plan.length_m().end(), 0.0);
     int strahler = 0;
@@ -257,7 +257,7 @@ ordered_json statistics_object(fractal::MatchedDem const& p) {
 }
 
 /// Factor from the recipe's increments to those used.
-double metres_per_unit(make::Made const& t) {
+double metres_per_unit(make::MakeResult const& t) {
     std::vector<double> const& used = t.terrain.ground.dilated().increments;
     std::vector<double> const named =
         surface::increments(static_cast<std::int64_t>(used.size()), t.recipe.surface->dilate.increment);
@@ -300,7 +300,7 @@ ordered_json rivers_off(make::GivenHeights const& heights) {
     return out;
 }
 
-void add_rivers(make::Made const& t, ordered_json& report) {
+void add_rivers(make::MakeResult const& t, ordered_json& report) {
     if (t.recipe.network) {
         report["network"] = network_object(t);
         report["network"]["secondary"] = t.assessment.given ? t.assessment.given->secondary.size() : 0;
@@ -330,7 +330,7 @@ void add_rivers(make::Made const& t, ordered_json& report) {
     }
 }
 
-void add_dem(make::Made const& t, ordered_json& report) {
+void add_dem(make::MakeResult const& t, ordered_json& report) {
     if (t.assessment.statistics) {
         report["dem"] = dem(*t.assessment.statistics);
         report["dem"]["hypsometric_integral"] = t.assessment.hypsometry->integral;
@@ -350,7 +350,7 @@ void add_dem(make::Made const& t, ordered_json& report) {
     }
 }
 
-void add_drainage(make::Made const& t, ordered_json& report) {
+void add_drainage(make::MakeResult const& t, ordered_json& report) {
     if (t.terrain.water.is_conditioned) {
         report["drained"] = {{"banks", change_object(t.terrain.water.banks)},
                              {"depressions", change_object(t.terrain.water.depressions)}};
@@ -411,7 +411,7 @@ ordered_json features_object(make::GivenFeatures const& given) {
     return out;
 }
 
-void add_lines(make::Made const& t, ordered_json& report) {
+void add_lines(make::MakeResult const& t, ordered_json& report) {
     if (t.assessment.given_features) {
         report["features"] = features_object(*t.assessment.given_features);
     }
@@ -430,7 +430,7 @@ void add_lines(make::Made const& t, ordered_json& report) {
 }
 
 /// Adds the statistics of the terrain's construction.
-void add_statistics(make::Made const& t, ordered_json& report) {
+void add_statistics(make::MakeResult const& t, ordered_json& report) {
     make::Ground const& ground = t.terrain.ground;
     if (make::Equilibrium const* const found = ground.equilibrium()) {
         make::Equilibrium const& e = *found;
@@ -458,7 +458,7 @@ void add_statistics(make::Made const& t, ordered_json& report) {
                                                 {"smooth_slope_deg", rebuilt->smooth_slope_deg}};
         }
     }
-    if (auto const* const diffused = std::get_if<make::Diffused>(&ground.how)) {
+    if (auto const* const diffused = std::get_if<make::ByDiffusion>(&ground.how)) {
         report["diffusion"] = {{"iterations", diffused->iterations}, {"residual", diffused->residual}};
     }
     for (make::PatchStatistics const& p : t.terrain.ground.patches) {
@@ -482,7 +482,7 @@ std::string version() {
     return THALWEG_VERSION;
 }
 
-std::string write_report(make::Made const& t, std::vector<std::string> const& files, Timings const& writing) {
+std::string write_report(make::MakeResult const& t, std::vector<std::string> const& files, Timings const& writing) {
     Timings timings = make::timings_of(t);
     append(timings, writing);
     ordered_json report{{"version", version()},

@@ -25,7 +25,8 @@ namespace thalweg::report {
 /// \param files names of the files written
 /// \param writing times of writing them
 /// \return JSON
-std::string write_report(make::Made const& made, std::vector<std::string> const& files, Timings const& writing = {});
+std::string write_report(make::MakeResult const& made, std::vector<std::string> const& files,
+                         Timings const& writing = {});
 
 /// \internal
 /// Reads the files that an earlier report.json lists.
@@ -71,7 +72,7 @@ std::string version();
 /// \param made a terrain
 /// \param path of a new GeoPackage
 /// \throws BadInput when the recipe has no rivers; as io::write_geopackage
-void write_rivers(make::Made const& made, std::string const& path, Run const& run = {});
+void write_rivers(make::MakeResult const& made, std::string const& path, Run const& run = {});
 
 /// Options of draw_map().
 struct DrawMapParams {
@@ -83,7 +84,7 @@ struct DrawMapParams {
 /// \param made a terrain with a surface
 /// \return the picture
 /// \throws BadInput when the recipe asks for rivers alone; as draw::map
-draw::Picture draw_map(make::Made const& made, DrawMapParams const& params = {}, Run const& run = {});
+draw::Picture draw_map(make::MakeResult const& made, DrawMapParams const& params = {}, Run const& run = {});
 
 /// \internal
 /// Checks an output folder before the work starts.
@@ -98,14 +99,14 @@ void check_folder(std::string const& folder, io::Existing existing);
 /// \param existing under replace, files listed in the old report.json are removed, nothing else
 /// \return the names of the files, report.json last
 /// \throws Error BadInput (the folder has content), IoError, Cancelled: then nothing has changed
-std::vector<std::string> write_terrain(make::Made const& made, std::string const& folder,
+std::vector<std::string> write_terrain(make::MakeResult const& made, std::string const& folder,
                                        io::Existing existing = io::Existing::refuse, Run const& run = {});
 
 /// Makes a terrain and writes all output of `make`, as make() and write_terrain() do; with more than one thread files
 /// are written while the terrain is assessed.
 /// \throws Error as make() and write_terrain()
-make::Made make_folder(recipe::Recipe const& recipe, std::string const& folder,
-                       io::Existing existing = io::Existing::refuse, Run const& run = {});
+make::MakeResult make_folder(recipe::Recipe const& recipe, std::string const& folder,
+                             io::Existing existing = io::Existing::refuse, Run const& run = {});
 
 /// Draws the differences of a terrain and the DEM it is compared with.
 /// \internal

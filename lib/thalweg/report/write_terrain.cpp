@@ -52,24 +52,24 @@ std::vector<std::string> files_left_in(std::string const& folder) {
     return fs::exists(report) ? files_of_report(io::read_text(report, largest_report)) : std::vector<std::string>{};
 }
 
-double relief_m(make::Made const& t) {
+double relief_m(make::MakeResult const& t) {
     auto const heights = height_range(t.terrain.ground.dem);
     return heights ? heights->second - heights->first : 0.0;
 }
 
 /// In the recipe's unit.
-double contour_interval(make::Made const& t) {
+double contour_interval(make::MakeResult const& t) {
     double const asked = t.recipe.output.contour_interval;
     return asked > 0.0 ? asked : round_interval(relief_m(t) / metres_in(t.recipe.output.units));
 }
 
 /// For pictures and the page, which are in metres.
-double contour_interval_m(make::Made const& t) {
+double contour_interval_m(make::MakeResult const& t) {
     return t.recipe.output.units == HeightUnit::metre ? contour_interval(t) : round_interval(relief_m(t));
 }
 
 /// Writes the network in another schema, with confluences split if it limits the number of arcs at a node.
-void write_in_schema(make::Made const& t, io::OutputFolder const& out, Run const& run) {
+void write_in_schema(make::MakeResult const& t, io::OutputFolder const& out, Run const& run) {
     io::SchemaTable const& schema = io::table_of(t.recipe.output.schema);
     network::Split split{t.terrain.rivers.network, {}};
     if (schema.most_upstream > 0) {
@@ -88,7 +88,7 @@ void write_in_schema(make::Made const& t, io::OutputFolder const& out, Run const
 }
 
 /// Calls write(tables) with what the files of a network hold.
-template <class Write> void with_tables(make::Made const& t, Write const& write) {
+template <class Write> void with_tables(make::MakeResult const& t, Write const& write) {
     std::map<std::string, std::string> const about = {{"version", version()},
                                                       {"seed", fmt::format("{}", t.recipe.seed)},
                                                       {"area_from", t.terrain.water.areas.source},
@@ -111,7 +111,7 @@ template <class Write> void with_tables(make::Made const& t, Write const& write)
     write(tables);
 }
 
-void write_network(make::Made const& t, io::OutputFolder const& out, Run const& run) {
+void write_network(make::MakeResult const& t, io::OutputFolder const& out, Run const& run) {
     with_tables(t, [&](io::NetworkTables const& tables) {
         io::write_geopackage(tables, out.path("network"), run);
         io::write_shapefiles(tables, out.path("network"), run);
@@ -125,7 +125,7 @@ void write_network(make::Made const& t, io::OutputFolder const& out, Run const& 
     }
 }
 
-void write_catchments(make::Made const& t, io::OutputFolder const& out, Run const& run) {
+void write_catchments(make::MakeResult const& t, io::OutputFolder const& out, Run const& run) {
     auto const rows = make::catchment_rows(flow::reaches_of(t.terrain.rivers.network.planform),
                                            t.terrain.rivers.orders.arc_basin, *t.assessment.catchments);
     io::write_catchments({t.assessment.catchments->reach, rows}, out.path("catchments.gpkg"), run);
@@ -136,14 +136,14 @@ void write_areas(make::WaterAreas const& areas, io::OutputFolder const& out, Run
     io::write_field(areas.dinf, out.path("area_dinf.tif"), run);
 }
 
-void write_tin(make::Made const& t, io::OutputFolder const& out, Run const& run) {
+void write_tin(make::MakeResult const& t, io::OutputFolder const& out, Run const& run) {
     HeightUnit const unit = t.recipe.output.units;
     Tin const tin = make::in_unit(t.terrain.ground.tin, unit);
     io::write_tin(tin, t.terrain.grid.crs, out.path("tin.2dm"), io::TinFormat::mesh_2dm, unit, run);
     io::write_tin(tin, t.terrain.grid.crs, out.path("tin.ply"), io::TinFormat::ply, unit, run);
 }
 
-void write_dem(make::Made const& t, io::OutputFolder const& out, Run const& run) {
+void write_dem(make::MakeResult const& t, io::OutputFolder const& out, Run const& run) {
     HeightUnit const unit = t.recipe.output.units;
     Raster<float> const& dem = t.terrain.ground.dem;
     io::write_dem(unit == HeightUnit::metre ? dem : make::in_unit(dem, unit), out.path("dem.tif"), unit, run);
@@ -158,18 +158,18 @@ Raster<std::uint8_t> shade_of_dem(make::Against const& against, Raster<float> co
     return io::hillshade(real);
 }
 
-ElevatedNetwork const* network_of(make::Made const& t) {
+ElevatedNetwork const* network_of(make::MakeResult const& t) {
     return t.recipe.network ? &t.terrain.rivers.network : nullptr;
 }
 
-NetworkOrders const* orders_of(make::Made const& t) {
+NetworkOrders const* orders_of(make::MakeResult const& t) {
     return t.recipe.network ? &t.terrain.rivers.orders : nullptr;
 }
 
 /// What several files of a terrain's surface need.
 class SurfaceParts {
 public:
-    explicit SurfaceParts(make::Made const& made) : made_(made) {}
+    explicit SurfaceParts(make::MakeResult const& made) : made_(made) {}
 
     /// In metres, for the map.
     std::vector<io::ContourLine> const& contours(Run const& run) {
@@ -184,14 +184,14 @@ public:
     }
 
 private:
-    make::Made const& made_;
+    make::MakeResult const& made_;
     std::once_flag contours_made_;
     std::once_flag summits_made_;
     std::vector<io::ContourLine> contours_;
     std::vector<Summit> summits_;
 };
 
-draw::Picture map_with(make::Made const& t, SurfaceParts& parts, draw::MapParams map, Run const& run) {
+draw::Picture map_with(make::MakeResult const& t, SurfaceParts& parts, draw::MapParams map, Run const& run) {
     Raster<float> const& dem = t.terrain.ground.dem;
     Raster<std::uint8_t> const shade = io::hillshade(dem);
     draw::MapSheet sheet{
@@ -205,7 +205,7 @@ draw::Picture map_with(make::Made const& t, SurfaceParts& parts, draw::MapParams
     return draw_land(std::move(sheet), sea_of(t.terrain), parts.summits(run), map);
 }
 
-void write_contours(make::Made const& t, SurfaceParts& parts, io::OutputFolder const& out, Run const& run) {
+void write_contours(make::MakeResult const& t, SurfaceParts& parts, io::OutputFolder const& out, Run const& run) {
     HeightUnit const unit = t.recipe.output.units;
     double const step = contour_interval(t);
     auto const write = [&](std::vector<io::ContourLine> const& contours) {
@@ -218,11 +218,11 @@ void write_contours(make::Made const& t, SurfaceParts& parts, io::OutputFolder c
     }
 }
 
-draw::Picture curve_of(make::Made const& t) {
+draw::Picture curve_of(make::MakeResult const& t) {
     return draw::curve(t.terrain.ground.dilated().increments, {t.recipe.surface->dilate.increment.increment});
 }
 
-draw::Picture wireframe_of(make::Made const& t, std::string const& title) {
+draw::Picture wireframe_of(make::MakeResult const& t, std::string const& title) {
     draw::WireframeScene const land{t.terrain.ground.dem, network_of(t), orders_of(t)};
     draw::WireframeParams wireframe;
     wireframe.title = title;
@@ -230,13 +230,13 @@ draw::Picture wireframe_of(make::Made const& t, std::string const& title) {
     return draw::wireframe(land, wireframe);
 }
 
-draw::Picture sections_of(make::Made const& t, std::string const& title) {
+draw::Picture sections_of(make::MakeResult const& t, std::string const& title) {
     draw::SectionsParams sections;
     sections.title = title;
     return draw::sections(t.terrain.ground.dem, network_of(t), orders_of(t), sections);
 }
 
-draw::Picture profile_of(make::Made const& t, std::string const& title) {
+draw::Picture profile_of(make::MakeResult const& t, std::string const& title) {
     draw::ProfileParams profile;
     profile.title = title;
     return draw::profile(t.terrain.rivers.network, t.terrain.rivers.orders, profile);
@@ -246,7 +246,7 @@ draw::Picture profile_of(make::Made const& t, std::string const& title) {
 class FolderWriter {
 public:
     /// \param made outlives this object
-    FolderWriter(make::Made const& made, std::string const& folder, io::Existing existing, Run const& run)
+    FolderWriter(make::MakeResult const& made, std::string const& folder, io::Existing existing, Run const& run)
         : made_(made), out_(folder, existing, files_left_in(folder)), run_(run), title_(recipe::title_of(made.recipe)),
           recipe_(recipe::keep_inputs(made.recipe, out_)), parts_(made), jobs_(run, "write") {}
 
@@ -345,7 +345,7 @@ private:
         });
     }
 
-    make::Made const& made_;
+    make::MakeResult const& made_;
     io::OutputFolder out_;
     Run const& run_;
     std::string const title_;
@@ -357,7 +357,7 @@ private:
 
 } // namespace
 
-PageParams page_params_of(make::Made const& made, std::string recipe) {
+PageParams page_params_of(make::MakeResult const& made, std::string recipe) {
     PageParams params;
     params.recipe = std::move(recipe);
     if (made.terrain.has_surface()) {
@@ -385,12 +385,12 @@ draw::Picture comparison_against(make::Against const& against, make::Terrain con
         params);
 }
 
-void write_rivers(make::Made const& made, std::string const& path, Run const& run) {
+void write_rivers(make::MakeResult const& made, std::string const& path, Run const& run) {
     refuse_if<BadInput>(!made.recipe.network, "report.write_rivers: the recipe has no [network]: there are no rivers");
     with_tables(made, [&](io::NetworkTables const& tables) { io::write_geopackage(tables, path, run); });
 }
 
-draw::Picture draw_map(make::Made const& made, DrawMapParams const& params, Run const& run) {
+draw::Picture draw_map(make::MakeResult const& made, DrawMapParams const& params, Run const& run) {
     refuse_if<BadInput>(!made.terrain.has_surface(),
                         "report.draw_map: the recipe asks for rivers alone: there is no terrain to draw");
     draw::MapParams map;
@@ -404,16 +404,17 @@ void check_folder(std::string const& folder, io::Existing existing) {
     io::OutputFolder const probe(folder, existing, files_left_in(folder));
 }
 
-std::vector<std::string> write_terrain(make::Made const& made, std::string const& folder, io::Existing existing,
+std::vector<std::string> write_terrain(make::MakeResult const& made, std::string const& folder, io::Existing existing,
                                        Run const& run) {
     FolderWriter writer(made, folder, existing, run);
     writer.begin();
     return writer.finish();
 }
 
-make::Made make_folder(recipe::Recipe const& recipe, std::string const& folder, io::Existing existing, Run const& run) {
+make::MakeResult make_folder(recipe::Recipe const& recipe, std::string const& folder, io::Existing existing,
+                             Run const& run) {
     check_folder(folder, existing);
-    make::Made made;
+    make::MakeResult made;
     made.plan = recipe::resolve(recipe, run);
     made.planform = make::make_planform(made.plan, run);
     made.terrain = make::make_terrain(made.plan, made.planform, run);

@@ -167,12 +167,12 @@ private:
 };
 
 /// Counts a connection while it is open.
-class Counted {
+class ConnectionCount {
 public:
-    explicit Counted(int& connections) : connections_(connections) { ++connections_; }
-    ~Counted() { --connections_; }
-    Counted(Counted const&) = delete;
-    Counted& operator=(Counted const&) = delete;
+    explicit ConnectionCount(int& connections) : connections_(connections) { ++connections_; }
+    ~ConnectionCount() { --connections_; }
+    ConnectionCount(ConnectionCount const&) = delete;
+    ConnectionCount& operator=(ConnectionCount const&) = delete;
 
 private:
     int& connections_;
@@ -303,7 +303,7 @@ private:
     }
 
     Listener& listener_;
-    Counted counted_;
+    ConnectionCount counted_;
     Client id_ = 0;
     websocket::stream<beast::tcp_stream, false> socket_; ///< without compression: it is slower than the loopback
     beast::flat_buffer received_;
@@ -446,7 +446,7 @@ private:
 
     Listener& listener_;
     std::optional<std::list<Exchange*>::iterator> place_; ///< among the strangers
-    std::optional<Counted> counted_;                      ///< when it is none any more
+    std::optional<ConnectionCount> counted_;              ///< when it is none any more
     beast::tcp_stream stream_;
     beast::flat_buffer received_{most_head_bytes + 1};
     http::request_parser<http::empty_body> parser_;

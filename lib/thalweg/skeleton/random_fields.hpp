@@ -38,6 +38,7 @@ struct FieldParams {
     std::uint64_t seed = 0;
 };
 
+/// \internal
 /// Checks the statistics of a random terrain.
 /// \param params any values
 /// \param stage name of the stage, for messages

@@ -432,7 +432,7 @@ double share_of(std::uint64_t place, ScatterBetweenParams const& params) {
 
 } // namespace
 
-Scattered scatter(Grid const& grid, ScatterParams const& params, Run const& run) {
+ScatteredPoints scatter(Grid const& grid, ScatterParams const& params, Run const& run) {
     double const spacing_m = params.spacing_cells * grid.cell_m;
     require(grid, params, spacing_m);
     std::vector<Vec3> extremes;
@@ -445,7 +445,7 @@ Scattered scatter(Grid const& grid, ScatterParams const& params, Run const& run)
     }
     PlacedPoints const placed = place_points(grid, {}, placing, run);
     std::vector<Vec2> const& places = placed.places;
-    Scattered result;
+    ScatteredPoints result;
     result.points.crs = grid.crs;
     result.missing = placed.missing;
     result.density = placed.density;
@@ -468,8 +468,8 @@ Scattered scatter(Grid const& grid, ScatterParams const& params, Run const& run)
     return result;
 }
 
-Scattered scatter_between(Valley const& valley, Mask const& inside, ScatterBetweenParams const& params,
-                          Run const& run) {
+ScatteredPoints scatter_between(Valley const& valley, Mask const& inside, ScatterBetweenParams const& params,
+                                Run const& run) {
     require(valley, inside, params);
     Grid const& grid = valley.z.grid();
     Raster<std::int64_t> const nearest = nearest_cells(rivers_of(valley), run);
@@ -479,7 +479,7 @@ Scattered scatter_between(Valley const& valley, Mask const& inside, ScatterBetwe
         bool const may_be = inside.cells() == 0 || inside[i] != 0;
         free[i] = may_be && distance_cells(grid, i, nearest[i]) >= clear ? 1 : 0;
     }
-    Scattered result;
+    ScatteredPoints result;
     result.points.crs = grid.crs;
     if (params.count == 0) {
         return result;

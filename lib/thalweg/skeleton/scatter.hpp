@@ -23,7 +23,7 @@
 // Not for: densities above 1.15, which no packing reaches and which are refused. Points do not know
 // valleys: use them as a skeleton (surface/, geometry/triangulate.hpp).
 // Example:
-//     Scattered const some = scatter(grid, {.count = 200, .spacing_cells = 4.0, .std_m = 90.0});
+//     ScatteredPoints const some = scatter(grid, {.count = 200, .spacing_cells = 4.0, .std_m = 90.0});
 //     FeaturePoints const& points = some.points; // some.missing found no room
 // More: docs/statistics.md, "From points".
 
@@ -79,7 +79,7 @@ struct ScatterParams {
 inline constexpr double darts_density = 0.62;
 
 /// What scatter() returns.
-struct Scattered {
+struct ScatteredPoints {
     FeaturePoints points;     ///< extremes first: highest, then lowest
     std::int64_t missing = 0; ///< fewer than count: no more room was found
     double density = 0.0;     ///< count spacing^2 / area; dart throwing jams at 0.6965, 1.1547 is the densest packing
@@ -93,7 +93,7 @@ struct Scattered {
 /// \throws BadParameter with the density, when no packing can hold the points
 ///
 /// Source: \cite zhang, equations 6 to 11; up to a density of 0.62 darts, above it \cite bridson2007 (denser).
-Scattered scatter(Grid const& grid, ScatterParams const& params, Run const& run = {});
+ScatteredPoints scatter(Grid const& grid, ScatterParams const& params, Run const& run = {});
 
 /// Options of scatter_between().
 struct ScatterBetweenParams {
@@ -118,7 +118,7 @@ struct ScatterBetweenParams {
 /// \throws BadInput when there is no river cell, or inside is on another grid
 ///
 /// Source: \cite zhang, equations 6 to 8 and 11, heights by equation 10 of \cite nenu2015 with a random share.
-Scattered scatter_between(Valley const& valley, Mask const& inside, ScatterBetweenParams const& params = {},
-                          Run const& run = {});
+ScatteredPoints scatter_between(Valley const& valley, Mask const& inside, ScatterBetweenParams const& params = {},
+                                Run const& run = {});
 
 } // namespace thalweg::skeleton

@@ -189,7 +189,7 @@ Document document_of(std::string const& toml) {
     return apply({}, {"", {ReplaceRecipe{toml}}}).document;
 }
 
-Applied apply(Document const& document, Edit const& edit) {
+AppliedEdit apply(Document const& document, Edit const& edit) {
     refuse_if<BadParameter>(!is_utf8(edit.name), "studio.apply: the name of an edit is not UTF-8");
     Draft draft(document);
     for (Step const& step : edit.steps) {
@@ -203,7 +203,7 @@ Applied apply(Document const& document, Edit const& edit) {
 }
 
 Session edited(Session session, Edit const& edit) {
-    Applied applied = apply(session.document, edit);
+    AppliedEdit applied = apply(session.document, edit);
     if (applied.document.toml == session.document.toml) {
         return session;
     }

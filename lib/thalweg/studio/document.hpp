@@ -59,7 +59,7 @@ struct Edit {
 std::string name_of(Edit const& edit);
 
 /// A document after an edit, and the way back.
-struct Applied {
+struct AppliedEdit {
     Document document;
     ReplaceLines inverse; ///< applied to document, gives the text before, byte for byte
 };
@@ -76,7 +76,7 @@ Document document_of(std::string const& toml);
 /// \return the document after it, and the inverse
 /// \throws BadParameter for a key that is unknown or has no effect, and a recipe that is refused, in the recipe's words
 /// \throws BadInput when lines to replace are not there
-Applied apply(Document const& document, Edit const& edit);
+AppliedEdit apply(Document const& document, Edit const& edit);
 
 /// An edit that was made.
 struct Change {

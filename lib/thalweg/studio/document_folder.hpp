@@ -15,10 +15,12 @@ namespace thalweg::studio {
 struct Journal;
 
 /// Makes the folder of a document, completely or not at all: recipe.toml, which `thalweg make` makes the same terrain
-/// of; inputs/, with copies of all its files; history.jsonl, every edit as a line of JSON. \param folder a new one, or
-/// an empty one \param input a recipe, a folder that make wrote (its recipe is taken), or rivers or a DEM as for
-/// recipe::recipe_from(); "": recipe::default_recipe() \throws BadInput when the folder has content, and when an
-/// input cannot be read \throws BadParameter as document_of()
+/// of; inputs/, with copies of all its files; history.jsonl, every edit as a line of JSON.
+/// \param folder a new one, or an empty one
+/// \param input a recipe, a folder that make wrote (its recipe is taken), or rivers or a DEM as for
+/// recipe::recipe_from(); "": recipe::default_recipe()
+/// \throws BadInput when the folder has content, and when an input cannot be read
+/// \throws BadParameter as document_of()
 void new_document(std::string const& folder, std::string const& input = {}, Run const& run = {});
 
 /// Makes a document to draw on, 512 x 512 cells of 30 m without rivers.

@@ -33,7 +33,8 @@ Drawing read_drawing(recipe::Recipe const& recipe, Grid const& grid, Run const& 
 /// \param attributes of the file that they come from, by feature
 Drawing drawing_of(Grid const& grid, StreamNetwork const& network, Mask const& land, AttributeTable const& attributes);
 
-/// Writes rivers and coasts as a new GeoPackage. \param path ends in .gpkg
+/// Writes rivers and coasts as a new GeoPackage.
+/// \param path ends in .gpkg
 void write_drawing(Drawing const& drawing, std::string const& path, Run const& run = {});
 
 /// Writes a file of a document, and gives the step that sets a key to it.

@@ -33,7 +33,7 @@ int report(double share, char const* what, void* reporting) {
 }
 
 /// About the bytes of a terrain of which all parts are there.
-std::int64_t bytes_of(make::Made const& made) {
+std::int64_t bytes_of(make::MakeResult const& made) {
     constexpr std::int64_t of_cell = 40;
     constexpr std::int64_t least = 1 << 20;
     return least + of_cell * made.terrain.grid.cells();
@@ -42,7 +42,7 @@ std::int64_t bytes_of(make::Made const& made) {
 } // namespace
 
 Engine::Engine(Watcher watcher, int threads, std::int64_t kept)
-    : watcher_(std::move(watcher)), threads_(threads), kept_(kept),
+    : watcher_(std::move(watcher)), threads_(threads), results_(kept),
       thread_([this](std::stop_token const& ends) { work(ends); }) {}
 
 Engine::~Engine() {
@@ -74,7 +74,7 @@ void Engine::ask_to_stop() {
     changed_.notify_all();
 }
 
-std::shared_ptr<make::Made const> Engine::wait(std::int64_t number, std::stop_token const& stop) {
+std::shared_ptr<make::MakeResult const> Engine::wait(std::int64_t number, std::stop_token const& stop) {
     std::unique_lock lock(guard_);
     changed_.wait(lock, stop, [&] { return ended_ >= number; });
     return latest_number_ == number ? latest_ : nullptr;
@@ -123,11 +123,11 @@ void Engine::run(Job const& job, std::stop_token const& stop) {
     std::vector<Finding> findings;
     run.found = [&](Finding const& finding) { findings.push_back(finding); };
     run.stop = stop;
-    run.kept = &kept_;
+    run.cache = &results_;
     try {
         run.check();
-        std::string const made_from = "made\n" + job.toml + recipe::state_of_files(job.recipe);
-        auto made = std::static_pointer_cast<make::Made const>(kept_.find(made_from));
+        std::string const key = "made\n" + job.toml + recipe::state_of_files(job.recipe);
+        auto made = std::static_pointer_cast<make::MakeResult const>(results_.find(key));
         if (made) {
             findings = make::findings_of(*made);
             tell(watcher_.found, job, findings);
@@ -139,7 +139,7 @@ void Engine::run(Job const& job, std::stop_token const& stop) {
                      Heights{made->terrain.ground.dem, made->terrain.grid, report::sea_of(made->terrain), true});
             }
         } else {
-            auto const fresh = std::make_shared<make::Made>();
+            auto const fresh = std::make_shared<make::MakeResult>();
             fresh->plan = recipe::resolve(job.recipe, run);
             fresh->planform = make::make_planform(fresh->plan, run);
             tell(watcher_.found, job, findings);
@@ -160,7 +160,7 @@ void Engine::run(Job const& job, std::stop_token const& stop) {
             fresh->assessment = make::assess(fresh->plan, fresh->planform, fresh->terrain, run);
             tell(watcher_.found, job, findings);
             made = fresh;
-            kept_.keep(made_from, made, bytes_of(*made));
+            results_.keep(key, made, bytes_of(*made));
         }
         run.check();
         {

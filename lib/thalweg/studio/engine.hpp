@@ -16,7 +16,7 @@
 #include <vector>
 
 #include <thalweg/core/finding.hpp>
-#include <thalweg/core/run/kept.hpp>
+#include <thalweg/core/run/result_cache.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/make/make.hpp>
 #include <thalweg/recipe/recipe.hpp>
@@ -46,12 +46,13 @@ struct Watcher {
     std::function<void(Job const&, std::string_view stage, double share)> at = {}; ///< [0, 1] of a stage is done
     /// \param findings all of the job so far, again after each stage that may find something
     std::function<void(Job const&, std::vector<Finding> const& findings)> found = {};
-    /// Before their land. \param run of the job
+    /// Before their land.
+    /// \param run of the job
     std::function<void(Job const&, recipe::Recipe const&, make::Planform const&, Run const& run)> rivers = {};
     std::function<void(Job const&, Heights const&)> heights = {};
-    std::function<void(Job const&, make::Made const&)> made = {}; ///< not yet measured
+    std::function<void(Job const&, make::MakeResult const&)> made = {}; ///< not yet measured
     /// The end of a job.
-    std::function<void(Job const&, std::shared_ptr<make::Made const> const&)> measured = {};
+    std::function<void(Job const&, std::shared_ptr<make::MakeResult const> const&)> measured = {};
     std::function<void(Job const&, std::string_view error)> failed = {};
     std::function<void(Job const&)> stopped = {}; ///< by a later job, or stop()
 };
@@ -78,7 +79,7 @@ public:
     std::int64_t last() const;
     /// Waits for the terrain of a job.
     /// \return nothing when it failed, was stopped, a later one has ended, or stop ended the wait
-    std::shared_ptr<make::Made const> wait(std::int64_t number, std::stop_token const& stop = {});
+    std::shared_ptr<make::MakeResult const> wait(std::int64_t number, std::stop_token const& stop = {});
     /// \return [s] the longest time from the request to stop a job to its end
     double slowest_stop_s() const;
 
@@ -89,7 +90,7 @@ private:
 
     Watcher const watcher_;
     int const threads_;
-    Kept kept_;
+    ResultCache results_;
     mutable std::mutex guard_;
     std::condition_variable_any changed_;
     std::optional<Job> next_;
@@ -99,7 +100,7 @@ private:
     std::stop_source running_{std::nostopstate};
     std::chrono::steady_clock::time_point asked_to_stop_{};
     double slowest_stop_s_ = 0.0;
-    std::shared_ptr<make::Made const> latest_; ///< of the last job that was made
+    std::shared_ptr<make::MakeResult const> latest_; ///< of the last job that was made
     std::int64_t latest_number_ = 0;
     std::jthread thread_; ///< the last member: it uses all others
 };

@@ -75,9 +75,9 @@ double seconds_since(Clock::time_point begin) {
 } // namespace
 
 /// Document, engine and server. The server's thread edits, the engine's tells what comes of it, a third one writes.
-class Desk {
+class StudioSession {
 public:
-    explicit Desk(StudioParams params)
+    explicit StudioSession(StudioParams params)
         : params_(std::move(params)), folder_(params_.folder),
           server_(params_.serve, {.get = [this](std::string const& path) { return answer(path); },
                                   .opened = [this](serve::Client client) { welcome(client); },
@@ -134,7 +134,7 @@ private:
         }
         for (std::optional<Shown> const* shown : {&coarse_, &full_}) {
             if (*shown) {
-                server_.send_binary(client, heights_message(shown_by_, **shown, nullptr));
+                server_.send_binary(client, heights_message(job_of_shown_, **shown, nullptr));
             }
         }
         if (!scene_.empty()) {
@@ -183,13 +183,13 @@ private:
             Document const tried = apply(folder_.document(), request.edit).document;
             if (!is_empty_sheet()) {
                 engine_.make(job_of(tried));
-                is_left_ = true;
+                is_stale_ = true;
             }
             break;
         }
         case Request::Kind::stop:
             engine_.stop();
-            is_left_ = true;
+            is_stale_ = true;
             break;
         case Request::Kind::write: write(client, request); return; // answers when it is done
         case Request::Kind::draw: said = draw(request); break;
@@ -282,7 +282,7 @@ private:
     }
 
     void changed() {
-        is_left_ = false;
+        is_stale_ = false;
         {
             std::scoped_lock const lock(guard_);
             server_.send_text(serve::everyone, document_words());
@@ -318,9 +318,9 @@ private:
             return;
         }
         engine_.stop();
-        left_ = engine_.last(); // what is on its way of them is not shown any more
+        last_discarded_job_ = engine_.last(); // what is on its way of them is not shown any more
         Job nothing = job_of(folder_.document());
-        nothing.number = left_;
+        nothing.number = last_discarded_job_;
         cluster_.clear();
         scene_.clear();
         findings_ = findings_message(nothing, {});
@@ -344,7 +344,7 @@ private:
     void write(serve::Client client, Request const& request) {
         refuse_if<BadInput>(is_writing_, "studio.export: the last export is still being written; wait for it");
         refuse_if<BadInput>(is_empty_sheet(), "studio.export: there is no river yet: draw one");
-        if (is_left_) {
+        if (is_stale_) {
             changed();
         }
         is_writing_ = true;
@@ -396,9 +396,9 @@ private:
                 .rivers = [this](Job const& job, recipe::Recipe const& recipe, make::Planform const& planform,
                                  Run const& run) { show_rivers(job, recipe, planform, run); },
                 .heights = [this](Job const& job, Heights const& heights) { show_heights(job, heights); },
-                .made = [this](Job const& job, make::Made const& made) { show_scene(job, "land", made); },
+                .made = [this](Job const& job, make::MakeResult const& made) { show_scene(job, "land", made); },
                 .measured =
-                    [this](Job const& job, std::shared_ptr<make::Made const> const& made) {
+                    [this](Job const& job, std::shared_ptr<make::MakeResult const> const& made) {
                         show_scene(job, "measured", *made);
                         end(job, idle_message(job, seconds_since(job.asked)));
                     },
@@ -413,10 +413,10 @@ private:
 
     void tell_share(Job const& job, std::string_view stage, double share) {
         constexpr double often_s = 0.1;
-        bool const is_new = job.number != told_job_ || stage != told_stage_;
+        bool const is_new = job.number != last_told_job_ || stage != last_told_stage_;
         if (is_new || seconds_since(told_at_) > often_s) {
-            told_job_ = job.number;
-            told_stage_ = stage;
+            last_told_job_ = job.number;
+            last_told_stage_ = stage;
             told_at_ = Clock::now();
             end(job, busy_message(job, stage, share));
         }
@@ -425,7 +425,7 @@ private:
     void show_findings(Job const& job, std::vector<Finding> const& found) {
         std::string findings = findings_message(job, found);
         std::scoped_lock const lock(guard_);
-        if (job.number > left_) {
+        if (job.number > last_discarded_job_) {
             findings_ = findings;
             server_.send_text(serve::everyone, std::move(findings));
         }
@@ -434,7 +434,7 @@ private:
     void show_rivers(Job const& job, recipe::Recipe const& recipe, make::Planform const& planform, Run const& run) {
         constexpr std::int64_t side = 256;
         std::string scene = scene_message(
-            job, "rivers", report::live_scene(report::rivers_to_be(recipe, planform), job.toml, command(), run));
+            job, "rivers", report::live_scene(report::planform_preview(recipe, planform), job.toml, command(), run));
         std::string cluster = cluster_message(job, report::cluster_arms(recipe, side, run));
         ShownRivers shown{job.toml,
                           planform.grid,
@@ -443,7 +443,7 @@ private:
                           planform.file.attributes,
                           planform.file_heights.has_value()};
         std::scoped_lock const lock(guard_);
-        if (job.number <= left_) {
+        if (job.number <= last_discarded_job_) {
             return;
         }
         shown_rivers_ = std::move(shown);
@@ -460,7 +460,7 @@ private:
         Shown shown{given.grid, given.is_finished, std::move(*heights), given.sea};
         std::optional<Shown>& before = given.is_finished ? full_ : coarse_;
         std::scoped_lock const lock(guard_);
-        if (job.number <= left_) {
+        if (job.number <= last_discarded_job_) {
             return;
         }
         if (!job.recipe.network) {
@@ -468,13 +468,13 @@ private:
         }
         server_.send_binary(serve::everyone, heights_message(job, shown, before ? &*before : nullptr));
         before = std::move(shown);
-        shown_by_ = job;
+        job_of_shown_ = job;
     }
 
-    void show_scene(Job const& job, char const* level, make::Made const& made) {
+    void show_scene(Job const& job, char const* level, make::MakeResult const& made) {
         std::string scene = scene_message(job, level, report::live_scene(made, job.toml, command()));
         std::scoped_lock const lock(guard_);
-        if (job.number <= left_) {
+        if (job.number <= last_discarded_job_) {
             return;
         }
         scene_ = scene;
@@ -494,7 +494,7 @@ private:
 
     void end(Job const& job, std::string state) {
         std::scoped_lock const lock(guard_);
-        if (job.number <= left_) {
+        if (job.number <= last_discarded_job_) {
             return;
         }
         state_ = state;
@@ -503,7 +503,7 @@ private:
 
     StudioParams const params_;
     DocumentFolder folder_;
-    bool is_left_ = false;             ///< the last job was stopped, or of a try and not of the document
+    bool is_stale_ = false; ///< the terrain shown is not that of the document: its job was stopped, or tried an edit
     std::optional<Drawing> drawing_;   ///< that files of the document hold; nothing: see shown_rivers_
     std::string drawing_files_;        ///< which
     std::optional<Grid> drawing_grid_; ///< of the last step
@@ -516,17 +516,18 @@ private:
     std::string state_;
     std::optional<Shown> coarse_;
     std::optional<Shown> full_;
-    Job shown_by_;
+    Job job_of_shown_;
     Written written_;
     std::optional<ShownRivers> shown_rivers_;
     std::string drawing_words_; ///< "": not known yet
     std::string document_toml_;
     std::int64_t revision_ = 0;
-    std::int64_t left_ = 0; ///< jobs up to this one are of what was drawn before the sheet was empty
+    std::int64_t last_discarded_job_ =
+        0; ///< results of jobs up to this number are discarded: the sheet was emptied since
 
     Clock::time_point told_at_{}; ///< of the engine's thread, like what follows
-    std::int64_t told_job_ = 0;
-    std::string told_stage_;
+    std::int64_t last_told_job_ = 0;
+    std::string last_told_stage_;
 
     serve::Server server_;
     Engine engine_;        ///< after the server, which it tells
@@ -552,7 +553,7 @@ std::string document_for(std::string const& input, std::string const& folder, bo
     return fresh;
 }
 
-Studio::Studio(StudioParams params) : desk_(std::make_unique<Desk>(std::move(params))) {}
+Studio::Studio(StudioParams params) : desk_(std::make_unique<StudioSession>(std::move(params))) {}
 Studio::~Studio() = default;
 
 std::string Studio::address() const {

@@ -29,7 +29,7 @@ struct StudioParams {
 std::string document_for(std::string const& input, std::string const& folder, bool is_blank = false,
                          Run const& run = {});
 
-class Desk;
+class StudioSession;
 
 /// A document that browsers on this machine look at and edit. Every edit is saved before it is answered, and its
 /// terrain follows, coarse first. Several windows may edit one document. The page and its messages: web/README.md.
@@ -47,7 +47,7 @@ public:
     void run(std::stop_token const& stop);
 
 private:
-    std::unique_ptr<Desk> desk_;
+    std::unique_ptr<StudioSession> desk_;
 };
 
 } // namespace thalweg::studio

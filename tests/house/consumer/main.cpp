@@ -9,6 +9,6 @@ int main() {
     for (std::int64_t col = 0; col < 9; ++col) {
         valley.z[{col, 2}] = 1.0F; // one level river from the west to the east
     }
-    thalweg::surface::Dilated const land = thalweg::surface::dilate(valley, {.increment = {.increment = "uniform"}});
+    thalweg::surface::DilatedDem const land = thalweg::surface::dilate(valley, {.increment = {.increment = "uniform"}});
     std::printf("%.1f\n", static_cast<double>(land.dem[{4, 0}])); // two dilations of 0.1 above the river
 }

@@ -26,7 +26,7 @@ using network::channels;
 using network::ChannelsOfArcs;
 using network::ChannelsParams;
 using network::shorten;
-using network::Shortened;
+using network::ShortenedChannels;
 
 ChannelsParams literal() {
     return {.look_cells = 0, .stub_cells = 0};
@@ -215,7 +215,7 @@ TEST(Shorten, CellsBesideTheirLineStay) {
         Cell const c = grid.at(drawn.channels.cell[i]);
         drawn.channels.cell[i] = grid.index({c.col + 1, c.row});
     }
-    Shortened const out = shorten(fork(), drawn, {arm.begin(), arm.begin() + 2});
+    ShortenedChannels const out = shorten(fork(), drawn, {arm.begin(), arm.begin() + 2});
     ASSERT_EQ(out.network.arc_count(), 3U);
     EXPECT_EQ(out.network.arc(1).line, (std::vector<Vec2>{{3.0, 7.0}, {5.5, 4.5}}));
     EXPECT_EQ(out.drawn.of_arc[1].size(), 4U);
@@ -224,7 +224,7 @@ TEST(Shorten, CellsBesideTheirLineStay) {
 TEST(Shorten, AnArmThatGoesLeavesOneRiver) {
     ChannelsOfArcs const drawn = channels(fork(), test::frame(11, 11));
     std::vector<std::int64_t> const left(drawn.of_arc[1].begin(), drawn.of_arc[1].end() - 1);
-    Shortened const out = shorten(fork(), drawn, left);
+    ShortenedChannels const out = shorten(fork(), drawn, left);
     ASSERT_EQ(out.network.arc_count(), 1U);
     EXPECT_EQ(out.network.arc(0).line, (std::vector<Vec2>{{10.5, 9.5}, {5.5, 4.5}, {5.5, 0.5}}));
     EXPECT_EQ(out.network.arc(0).feature, 9);
@@ -238,7 +238,7 @@ TEST(Shorten, AHeadInTheCellOfAnotherRiverGoesWithTheCellsBelowIt) {
     auto const& cells = drawn.of_arc[1];
     ASSERT_GE(cells.size(), 4U);
     ASSERT_NE(drawn.channels.receiver[static_cast<std::size_t>(cells[0])], cells[1]); // that is the other river's
-    Shortened const out = shorten(net, drawn, {cells.begin() + 1, cells.begin() + 3});
+    ShortenedChannels const out = shorten(net, drawn, {cells.begin() + 1, cells.begin() + 3});
     ASSERT_EQ(out.network.arc_count(), 2U);
     EXPECT_LT(out.network.arc(1).line.front().y, 23.0);
     EXPECT_EQ(out.notes.size(), 1U);
@@ -249,7 +249,7 @@ TEST(Shorten, WhatIsLeftIsWhatWasDrawn) {
         auto const [seed, on_lattice, net, grid] = test::some_rivers();
         ChannelsOfArcs const drawn = channels(net, grid);
         std::vector<std::int64_t> const gone = some_tips(drawn.channels, seed, *rc::gen::element(0.0, 0.01, 0.1, 1.0));
-        Shortened const out = shorten(net, drawn, gone);
+        ShortenedChannels const out = shorten(net, drawn, gone);
         test::require_law(out.drawn.channels);
         RC_ASSERT(out.drawn.of_arc.size() == out.network.arc_count());
         RC_ASSERT(out.drawn.channels.cell.size() + gone.size() == drawn.channels.cell.size());

@@ -24,7 +24,7 @@ using network::channels;
 using network::ChannelsOfArcs;
 using network::choose_lakes;
 using network::flood_lakes;
-using network::Flooded;
+using network::FloodedLakes;
 
 Raster<std::int32_t> labels_of(std::vector<std::string> const& rows) {
     Raster<std::int32_t> out(
@@ -49,7 +49,7 @@ Raster<std::int32_t> lake_between(Cell first, Cell last, Grid const& grid) {
 }
 
 /// '#' level, 'o' an outlet, '+' another channel.
-std::vector<std::string> picture(Flooded const& flooded) {
+std::vector<std::string> picture(FloodedLakes const& flooded) {
     Channels const& rivers = flooded.drawn.channels;
     std::vector<std::string> rows(static_cast<std::size_t>(rivers.grid.height),
                                   std::string(static_cast<std::size_t>(rivers.grid.width), '.'));
@@ -64,7 +64,7 @@ std::vector<std::string> picture(Flooded const& flooded) {
     return rows;
 }
 
-std::vector<std::string> kinds(Flooded const& flooded) {
+std::vector<std::string> kinds(FloodedLakes const& flooded) {
     std::vector<std::string> out;
     for (Finding const& note : flooded.notes) {
         out.push_back(note.kind);
@@ -79,7 +79,7 @@ ChannelsOfArcs one_river(std::int64_t height) {
 }
 
 /// Laws of lakes in channels.
-void require_lakes(Flooded const& out, Raster<std::int32_t> const& labels) {
+void require_lakes(FloodedLakes const& out, Raster<std::int32_t> const& labels) {
     Channels const& rivers = out.drawn.channels;
     test::require_law(rivers, test::Diagonals::may_cross);
     RC_ASSERT(rivers.level.size() == rivers.cell.size());
@@ -137,7 +137,7 @@ TEST(FloodLakes, RefusesWhatIsNotOnTheGrid) {
 }
 
 TEST(FloodLakes, NoLakeChangesNothing) {
-    Flooded const out = flood_lakes(one_river(8), Raster<std::int32_t>(test::frame(11, 8)));
+    FloodedLakes const out = flood_lakes(one_river(8), Raster<std::int32_t>(test::frame(11, 8)));
     EXPECT_EQ(out.drawn.channels.cell, one_river(8).channels.cell);
     EXPECT_EQ(out.drawn.channels.receiver, one_river(8).channels.receiver);
     EXPECT_EQ(out.drawn.of_arc, one_river(8).of_arc);
@@ -145,14 +145,14 @@ TEST(FloodLakes, NoLakeChangesNothing) {
 }
 
 TEST(FloodLakes, ALakeOnARiver) {
-    Flooded const out = flood_lakes(one_river(8), labels_of({"...........", //
-                                                             "..11111....", //
-                                                             "..11111.2..", //
-                                                             "...111..22.", //
-                                                             "...111..22.", //
-                                                             "....1......", //
-                                                             "...........", //
-                                                             "..........."}));
+    FloodedLakes const out = flood_lakes(one_river(8), labels_of({"...........", //
+                                                                  "..11111....", //
+                                                                  "..11111.2..", //
+                                                                  "...111..22.", //
+                                                                  "...111..22.", //
+                                                                  "....1......", //
+                                                                  "...........", //
+                                                                  "..........."}));
     // The river leaves at the southern shore; a lake that no river reaches is left out.
     EXPECT_EQ(picture(out), (std::vector<std::string>{".....+.....", //
                                                       "..#####....", //
@@ -174,7 +174,7 @@ TEST(FloodLakes, OneOutletEvenWhereTwoRiversLeave) {
     StreamNetwork const net = test::network_of(
         {{3.5, 0.5}, {3.5, 11.5}, {7.5, 0.5}, {7.5, 11.5}, {7.5, 9.5}, {9.5, 11.5}}, {{1, 0}, {4, 2}, {3, 4}, {5, 4}});
     Raster<std::int32_t> const lake = lake_between({2, 3}, {8, 7}, test::frame(11, 12));
-    Flooded const out = flood_lakes(channels(net, lake.grid()), lake);
+    FloodedLakes const out = flood_lakes(channels(net, lake.grid()), lake);
     test::require_law(out.drawn.channels, test::Diagonals::may_cross);
     ASSERT_EQ(out.lakes.size(), 1U);
     EXPECT_EQ(test::channel_cell(out.drawn.channels, out.lakes[0].outlet), (Cell{7, 7}));
@@ -190,7 +190,7 @@ TEST(FloodLakes, GivenHeightsAreRaisedToTheLake) {
     ChannelsOfArcs drawn = one_river(9);
     drawn.channels.z = {0.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F, 6.0F, 7.0F, 8.0F};
     Raster<std::int32_t> const lake = lake_between({4, 2}, {6, 5}, test::frame(11, 9));
-    Flooded const out = flood_lakes(drawn, lake);
+    FloodedLakes const out = flood_lakes(drawn, lake);
     Channels const& rivers = out.drawn.channels;
     for (std::size_t i = 0; i < rivers.cell.size(); ++i) {
         Cell const c = rivers.grid.at(rivers.cell[i]);
@@ -213,7 +213,7 @@ TEST(FloodLakes, WhateverIsDrawn) {
             }
         }
         ChannelsOfArcs const drawn = channels(net, grid);
-        Flooded const out = flood_lakes(drawn, labels);
+        FloodedLakes const out = flood_lakes(drawn, labels);
         require_lakes(out, labels);
         std::set<std::int64_t> const before(drawn.channels.cell.begin(), drawn.channels.cell.end());
         for (std::size_t i = 0; i < out.drawn.channels.cell.size(); ++i) {
@@ -270,7 +270,7 @@ TEST(ChooseLakes, AShareOfReaches) {
                 }
             }
         }
-        network::Flooded const flooded = network::flood_lakes(drawn, labels);
+        network::FloodedLakes const flooded = network::flood_lakes(drawn, labels);
         std::int32_t const chosen = *std::max_element(labels.values().begin(), labels.values().end());
         RC_ASSERT(static_cast<std::int32_t>(flooded.lakes.size()) <= 2 * chosen);
         RC_ASSERT((chosen == 0) == (flooded.lakes.empty()));

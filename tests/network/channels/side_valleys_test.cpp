@@ -41,7 +41,7 @@ Scene scene_of(StreamNetwork const& plan, Grid const& grid, std::uint64_t seed) 
     surface::EquilibriumParams params;
     params.seed = seed;
     surface::EquilibriumTerrain land = surface::equilibrium(drawn.channels, {}, params);
-    Shortened const kept = shorten(carried, drawn, land.shortened);
+    ShortenedChannels const kept = shorten(carried, drawn, land.shortened);
     Scene scene{elevate_from_dem(kept.network, kept.drawn.channels, land.dem), kept.drawn.channels, land.dem, {}};
     scene.drainage = flow::route(scene.dem);
     return scene;

@@ -20,7 +20,7 @@ namespace import_directions_test {
 
 using namespace thalweg;
 using network::import_lines;
-using network::Imported;
+using network::ImportedNetwork;
 using network::Orientation;
 using test::First;
 using test::flats;
@@ -205,7 +205,7 @@ private:
     Raster<float> const& dem_;
 };
 
-bool has_doubt(Imported const& imported, char const* kind) {
+bool has_doubt(ImportedNetwork const& imported, char const* kind) {
     return test::count(imported.directions.doubts, kind) > 0;
 }
 
@@ -268,7 +268,7 @@ TEST(ImportDirections, OneSourceAndNoConfluenceIsDrawnUpstream) {
         if (*std::ranges::max_element(degree) < 3) {
             return; // one line
         }
-        Imported const imported = import_lines(drawn(lattice));
+        ImportedNetwork const imported = import_lines(drawn(lattice));
         RC_ASSERT(steps_of(imported.network) == steps_of(lattice));
         auto const forks = std::ranges::count_if(degree, [](int lines) { return lines > 2; });
         RC_ASSERT(imported.directions.doubts.size() == (forks <= 8 ? std::size_t{1} : std::size_t{0})); // a delta?
@@ -328,7 +328,7 @@ TEST(ImportDirections, ADirectionColumnTells) {
                 line.runs = 1;
             }
         }
-        Imported const imported = import_lines(file);
+        ImportedNetwork const imported = import_lines(file);
         RC_ASSERT(steps_of(imported.network) == steps_of(lattice));
         RC_ASSERT(!has_doubt(imported, "contradicted_direction"));
     }));
@@ -347,7 +347,7 @@ TEST(ImportDirections, NodesTell) {
             file.lines[l].to_node = static_cast<std::int64_t>(lattice.edges[l].first) + 1;
         }
         disturb(file);
-        Imported const imported = import_lines(file);
+        ImportedNetwork const imported = import_lines(file);
         RC_ASSERT(steps_of(imported.network) == steps_of(lattice));
     }));
 }
@@ -372,11 +372,11 @@ RiverLines with_rising_ranks() {
     return file;
 }
 
-double end_of(Imported const& imported) {
+double end_of(ImportedNetwork const& imported) {
     return imported.network.node(imported.network.outlets()[0]).at.y;
 }
 
-std::size_t turned_ranks(Imported const& imported) {
+std::size_t turned_ranks(ImportedNetwork const& imported) {
     return static_cast<std::size_t>(std::ranges::count(imported.repairs, FindingKind("turned_rank"), &Finding::kind));
 }
 
@@ -392,7 +392,7 @@ TEST(ImportDirections, ARankThatRisesDownstreamIsTurned) {
     RiverLines const drawn_down = with_rising_ranks();
     EXPECT_EQ(end_of(import_lines(drawn_down)), 0.0);
     EXPECT_EQ(turned_ranks(import_lines(drawn_down)), 1U);
-    Imported const asked = import_lines(drawn_down, {.orientation = Orientation::rank});
+    ImportedNetwork const asked = import_lines(drawn_down, {.orientation = Orientation::rank});
     EXPECT_EQ(turned_ranks(asked), 0U);
     EXPECT_NE(end_of(asked), 0.0);
     // Drawn upstream, links or areas say it.

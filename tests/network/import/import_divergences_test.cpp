@@ -18,14 +18,14 @@ namespace import_divergences_test {
 
 using namespace thalweg;
 using network::import_lines;
-using network::Imported;
+using network::ImportedNetwork;
 using network::Orientation;
 
 namespace {
 
 using test::flats;
 
-std::set<std::int64_t> in_network(Imported const& imported) {
+std::set<std::int64_t> in_network(ImportedNetwork const& imported) {
     std::set<std::int64_t> features;
     for (auto const& stretches : imported.stretches) {
         for (Stretch const& s : stretches) {
@@ -35,7 +35,7 @@ std::set<std::int64_t> in_network(Imported const& imported) {
     return features;
 }
 
-std::set<std::int64_t> beside(Imported const& imported) {
+std::set<std::int64_t> beside(ImportedNetwork const& imported) {
     std::set<std::int64_t> features;
     for (SecondaryLine const& s : imported.secondary) {
         features.insert(s.feature);
@@ -45,7 +45,7 @@ std::set<std::int64_t> beside(Imported const& imported) {
 
 using Features = std::set<std::int64_t>;
 
-double total_m(Imported const& imported) {
+double total_m(ImportedNetwork const& imported) {
     double sum = 0.0;
     for (double const m : imported.network.length_m()) {
         sum += m;
@@ -57,7 +57,7 @@ double total_m(Imported const& imported) {
 }
 
 // Law: trees, and every secondary piece has a repair.
-void expect_forest(Imported const& imported) {
+void expect_forest(ImportedNetwork const& imported) {
     EXPECT_EQ(imported.network.node_count(), imported.network.arc_count() + imported.network.outlets().size());
     for (NodeId n = 0; n < imported.network.node_count(); ++n) {
         EXPECT_LE(imported.network.out_arcs(n).size(), 1U);
@@ -79,8 +79,9 @@ std::vector<std::vector<Vec2>> braid() {
 }
 
 /// What stays when these features are beside the main path.
-Imported expect_beside(RiverLines const& lines, Features const& features, network::ImportParams const& params = {}) {
-    Imported imported = import_lines(lines, params);
+ImportedNetwork expect_beside(RiverLines const& lines, Features const& features,
+                              network::ImportParams const& params = {}) {
+    ImportedNetwork imported = import_lines(lines, params);
     EXPECT_EQ(beside(imported), features);
     expect_forest(imported);
     return imported;
@@ -226,7 +227,7 @@ TEST(AdoptDivides, HeightsThatLeadIntoADeepPitAreRefused) {
         }
     };
     raise(1.0); // 3 m are noise: water runs where it climbs least, though most of the length says otherwise
-    Imported const noisy = import_lines(lines);
+    ImportedNetwork const noisy = import_lines(lines);
     ASSERT_EQ(noisy.network.outlets().size(), 1U);
     EXPECT_EQ(noisy.network.node(noisy.network.outlets()[0]).at, (Vec2{0, 20}));
     EXPECT_EQ(in_network(noisy), (Features{1, 2, 3, 4}));
@@ -252,7 +253,7 @@ TEST(AdoptDivides, LatticesBecomeForests) {
         }
         Orientation const orientation = *rc::gen::element(Orientation::automatic, Orientation::least_turned,
                                                           Orientation::as_drawn, Orientation::topology);
-        Imported imported;
+        ImportedNetwork imported;
         try {
             imported = import_lines(lines, {.orientation = orientation});
         } catch (BadInput const&) {

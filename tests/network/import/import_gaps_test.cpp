@@ -15,7 +15,7 @@ namespace import_gaps_test {
 
 using namespace thalweg;
 using network::import_lines;
-using network::Imported;
+using network::ImportedNetwork;
 using network::ImportParams;
 
 namespace {
@@ -31,7 +31,7 @@ RiverLines drawn(std::vector<std::vector<Vec2>> const& all) {
     return rivers;
 }
 
-std::vector<double> joined_m(Imported const& imported) {
+std::vector<double> joined_m(ImportedNetwork const& imported) {
     std::vector<double> gaps;
     for (Finding const& repair : imported.repairs) {
         if (repair.kind == FindingKind("snapped")) {
@@ -50,7 +50,7 @@ std::size_t outlets(RiverLines const& lines, ImportParams const& params = on_cel
 TEST(ImportGaps, AnEndJoinsWhatLiesWithinHalfACell) {
     RiverLines const lines = drawn({{{0, 0}, {400, 0}}, {{404, 2}, {900, 0}}, {{300, 300}, {600, 6}}});
     EXPECT_EQ(outlets(lines, {}), 3U);
-    Imported const imported = import_lines(lines, on_cells);
+    ImportedNetwork const imported = import_lines(lines, on_cells);
     EXPECT_EQ(imported.network.outlets().size(), 1U);
     std::vector<double> const gaps = joined_m(imported);
     ASSERT_EQ(gaps.size(), 2U);
@@ -77,7 +77,7 @@ TEST(ImportGaps, SpringsJoinNothingButWhatGivesWater) {
 TEST(ImportGaps, NothingCollapsesAndNoLoopIsClosed) {
     // A meander that comes back to 3 m from itself; its ends stay.
     RiverLines const bend = drawn({{{0, 0}, {200, 0}, {200, 100}, {100, 100}}, {{100, 100}, {100, 3}}});
-    Imported const imported = import_lines(bend, on_cells);
+    ImportedNetwork const imported = import_lines(bend, on_cells);
     EXPECT_TRUE(joined_m(imported).empty());
     EXPECT_EQ(imported.network.arc_count(), 1U);
 }
@@ -101,7 +101,7 @@ TEST(ImportGaps, EndsAtTheEdgeOfAGridJoinNothing) {
 TEST(ImportGaps, AStepBackWithinACellIsStraightened) {
     RiverLines const lines = drawn({{{0, 0}, {400, 0}, {399.3, 0.0005}, {900, 0}}});
     for (double const cell_m : {0.0, 10.0}) {
-        Imported const imported = import_lines(lines, {.cell_m = cell_m});
+        ImportedNetwork const imported = import_lines(lines, {.cell_m = cell_m});
         EXPECT_EQ(imported.network.arc(0).line.size(), cell_m > 0.0 ? 3U : 4U);
         EXPECT_NEAR(imported.network.length_m(0), cell_m > 0.0 ? 900.0 : 901.4, 1e-3);
     }
@@ -112,7 +112,7 @@ TEST(ImportGaps, ARiverDrawnTwiceIsOneRiver) {
     double const once_m = 400.0 + std::hypot(500, 50) + std::hypot(100, 300);
     all.push_back({{1, 1.5}, {200, 1.5}, {400, 1.5}, {650, 26}, {899, 51}}); // of another source, other vertices
     all.push_back({{600, 300}, {650, 26}});                                  // which has one more tributary
-    Imported const imported = import_lines(drawn(all), on_cells);
+    ImportedNetwork const imported = import_lines(drawn(all), on_cells);
     EXPECT_EQ(imported.network.outlets().size(), 1U);
     EXPECT_EQ(imported.secondary.size(), 1U);
     double length_m = 0.0;
@@ -135,7 +135,7 @@ TEST(ImportGaps, ATreeWithGapsIsTheTree) {
             all.push_back({{x + 200, 250}, {x + 300 - short_m, short_m}});
         }
         all.push_back({{300.0 * pieces, 0}, {300.0 * pieces + 500, 0}});
-        Imported const imported = import_lines(drawn(all), on_cells);
+        ImportedNetwork const imported = import_lines(drawn(all), on_cells);
         RC_ASSERT(imported.network.outlets().size() == 1U);
         RC_ASSERT(imported.secondary.empty());
         for (double const gap : joined_m(imported)) {

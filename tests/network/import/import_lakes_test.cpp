@@ -17,7 +17,7 @@ namespace import_lakes_test {
 
 using namespace thalweg;
 using network::import_lines;
-using network::Imported;
+using network::ImportedNetwork;
 using network::ImportParams;
 
 namespace {
@@ -50,14 +50,14 @@ Grid frame_of(double west, double north, std::int64_t width, std::int64_t height
     return grid;
 }
 
-std::vector<Finding> crossed(Imported const& imported) {
+std::vector<Finding> crossed(ImportedNetwork const& imported) {
     std::vector<Finding> found = imported.repairs;
     std::erase_if(found, [](Finding const& f) { return !(f.kind == FindingKind("lake_crossed")); });
     return found;
 }
 
 /// [m] Of arcs, what no feature of the file is.
-double added_m(Imported const& imported) {
+double added_m(ImportedNetwork const& imported) {
     double sum = 0.0;
     for (ArcId a = 0; a < imported.network.arc_count(); ++a) {
         sum += imported.network.length_m(a);
@@ -75,7 +75,7 @@ TEST(ImportLakes, AnInflowRunsOnToTheOutflow) {
     RiverLines none = lines;
     none.lakes.clear();
     EXPECT_EQ(import_lines(none, on_cells).network.outlets().size(), 2U);
-    Imported const imported = import_lines(lines, on_cells);
+    ImportedNetwork const imported = import_lines(lines, on_cells);
     ASSERT_EQ(imported.network.arc_count(), 1U) << "one arc from spring to mouth";
     EXPECT_EQ(imported.network.arc(0).line.front(), (Vec2{100, 500}));
     EXPECT_EQ(imported.network.arc(0).line.back(), (Vec2{100, -300}));
@@ -93,7 +93,7 @@ TEST(ImportLakes, EndsMayLieBesideTheShoreOrInTheLake) {
     RiverLines const lines = with_lakes(
         {{{100, 500}, {100, 215}}, {{-300, 100}, {60, 100}}, {{500, 120}, {202, 120}}, {{100, -4}, {100, -300}}},
         {{square}});
-    Imported const imported = import_lines(lines, on_cells);
+    ImportedNetwork const imported = import_lines(lines, on_cells);
     EXPECT_EQ(imported.network.outlets().size(), 1U);
     ASSERT_EQ(crossed(imported).size(), 1U);
     EXPECT_EQ(crossed(imported)[0].where, (Vec2{100, 0}));
@@ -107,7 +107,7 @@ TEST(ImportLakes, EndsMayLieBesideTheShoreOrInTheLake) {
     with_other.lines.push_back(beside.lines.back());
     with_other.lines.back().feature = 3;
     with_other.lines.back().vertices = {{200, 100, 0}, {500, 100, 0}};
-    Imported const two = import_lines(with_other, on_cells);
+    ImportedNetwork const two = import_lines(with_other, on_cells);
     ASSERT_EQ(crossed(two).size(), 1U);
     EXPECT_EQ(crossed(two)[0].where, (Vec2{200, 100}));
     EXPECT_TRUE(
@@ -117,7 +117,7 @@ TEST(ImportLakes, EndsMayLieBesideTheShoreOrInTheLake) {
 
 TEST(ImportLakes, LinesDrawnFarIntoIt) {
     RiverLines const lines = with_lakes({{{100, 500}, {100, 130}}, {{100, 70}, {100, -300}}}, {{square}});
-    Imported const imported = import_lines(lines, on_cells);
+    ImportedNetwork const imported = import_lines(lines, on_cells);
     EXPECT_EQ(imported.network.arc_count(), 1U);
     EXPECT_NEAR(added_m(imported), 60.0, 1e-6);
 }
@@ -137,7 +137,7 @@ TEST(ImportLakes, OfSeveralOutflowsByHeightsTheLowestTakesItsWater) {
             v.z = v.y > 300.0 ? 90.0 : v.x < -100.0 || v.y < -100.0 ? 20.0 : v.x == 0.0 ? 52.0 : 50.0;
         }
     }
-    Imported const imported = import_lines(lines, on_cells);
+    ImportedNetwork const imported = import_lines(lines, on_cells);
     EXPECT_EQ(imported.network.outlets().size(), 2U) << "the other one keeps beginning at the shore";
     EXPECT_NEAR(added_m(imported), 200.0, 1.0);
     lines.lines[0].vertices.back().z = 40.0; // as noise
@@ -149,7 +149,7 @@ TEST(ImportLakes, OfSeveralOutflowsByHeightsTheLowestTakesItsWater) {
 TEST(ImportLakes, TheRiverThatPassesThroughIsJoinedStraight) {
     RiverLines const lines = with_lakes(
         {{{100, 500}, {100, 100}, {100, -300}}, {{-300, 60}, {0, 60}}, {{500, 150}, {200, 150}}}, {{square}});
-    Imported const imported = import_lines(lines, on_cells);
+    ImportedNetwork const imported = import_lines(lines, on_cells);
     EXPECT_EQ(imported.network.outlets().size(), 1U);
     EXPECT_NEAR(added_m(imported), 200.0, 1e-6);
     ASSERT_EQ(crossed(imported).size(), 1U);
@@ -160,7 +160,7 @@ TEST(ImportLakes, AroundTheCornerItIsJoinedAlongTheMiddle) {
     // A lake like an L; the river passes through the end of one arm, another ends at the end of the other.
     Line const arms{{0, 0}, {600, 0}, {600, 100}, {100, 100}, {100, 600}, {0, 600}};
     RiverLines const lines = with_lakes({{{550, 400}, {550, 50}, {550, -300}}, {{50, 900}, {50, 600}}}, {{arms}});
-    Imported const imported = import_lines(lines, on_cells);
+    ImportedNetwork const imported = import_lines(lines, on_cells);
     ASSERT_EQ(imported.network.outlets().size(), 1U);
     EXPECT_NEAR(added_m(imported), 550.0 + 500.0, 120.0);
     for (Arc const& arc : imported.network.arcs()) {
@@ -178,7 +178,7 @@ TEST(ImportLakes, OneAfterTheOther) {
     }
     RiverLines const lines = with_lakes({{{100, 500}, {100, 200}}, {{100, 0}, {100, -400}}, {{100, -600}, {100, -900}}},
                                         {{square}, {below}});
-    Imported const imported = import_lines(lines, on_cells);
+    ImportedNetwork const imported = import_lines(lines, on_cells);
     EXPECT_EQ(imported.network.arc_count(), 1U);
     EXPECT_EQ(crossed(imported).size(), 2U);
 }
@@ -186,7 +186,7 @@ TEST(ImportLakes, OneAfterTheOther) {
 TEST(ImportLakes, DrawnUpstreamItIsTheSame) {
     RiverLines const lines =
         with_lakes({{{100, 200}, {100, 500}}, {{0, 100}, {-300, 100}}, {{100, -300}, {100, 0}}}, {{square}}, -1);
-    Imported const imported = import_lines(lines, on_cells);
+    ImportedNetwork const imported = import_lines(lines, on_cells);
     ASSERT_EQ(imported.network.outlets().size(), 1U);
     EXPECT_EQ(imported.network.node(imported.network.outlets()[0]).at, (Vec2{100, -300}));
 }
@@ -195,13 +195,13 @@ TEST(ImportLakes, AllDrawnUpstreamIsTurnedAsAWhole) {
     // Nothing is said but the drawing, which forks at the lake.
     RiverLines lines =
         with_lakes({{{100, 200}, {100, 500}}, {{0, 100}, {-300, 100}}, {{100, -300}, {100, 0}}}, {{square}}, 0);
-    Imported const imported = import_lines(lines, on_cells);
+    ImportedNetwork const imported = import_lines(lines, on_cells);
     ASSERT_EQ(imported.network.outlets().size(), 1U);
     EXPECT_EQ(imported.network.node(imported.network.outlets()[0]).at, (Vec2{100, -300}));
     // The same with a river that passes through.
     lines = with_lakes({{{100, -300}, {100, 60}, {100, 500}}, {{0, 100}, {-300, 100}}, {{200, 80}, {500, 80}}},
                        {{square}}, 0);
-    Imported const through = import_lines(lines, on_cells);
+    ImportedNetwork const through = import_lines(lines, on_cells);
     ASSERT_EQ(through.network.outlets().size(), 1U);
     EXPECT_EQ(through.network.node(through.network.outlets()[0]).at, (Vec2{100, -300}));
 }
@@ -211,7 +211,7 @@ TEST(ImportLakes, ASecondOutflowBeginsAtTheShore) {
         {{{100, 500}, {100, 200}}, {{-300, 100}, {0, 100}}, {{100, 0}, {100, -300}}, {{200, 100}, {500, 100}}},
         {{square}}, 0);
     for (auto const asked : {network::Orientation::automatic, network::Orientation::as_drawn}) {
-        Imported const imported = import_lines(lines, {.orientation = asked, .cell_m = 10.0});
+        ImportedNetwork const imported = import_lines(lines, {.orientation = asked, .cell_m = 10.0});
         EXPECT_EQ(imported.network.outlets().size(), 2U);
         EXPECT_TRUE(imported.secondary.empty());
         EXPECT_EQ(std::ranges::count_if(imported.repairs,
@@ -221,7 +221,7 @@ TEST(ImportLakes, ASecondOutflowBeginsAtTheShore) {
     for (RiverLine& line : lines.lines) { // no doubt then
         line.runs = 1;
     }
-    Imported const said = import_lines(lines, on_cells);
+    ImportedNetwork const said = import_lines(lines, on_cells);
     EXPECT_EQ(said.network.outlets().size(), 2U);
     ASSERT_EQ(said.repairs.size(), 1U);
     EXPECT_TRUE(test::has(said.repairs[0].text, "another one begins at its shore")) << said.repairs[0].text;
@@ -267,7 +267,7 @@ TEST(ImportLakes, LinksNodesColumnsHeightsAndRanksDecide) {
                     rivers.lines[l].runs = -rivers.lines[l].runs;
                 }
             }
-            Imported const imported = import_lines(rivers, on_cells);
+            ImportedNetwork const imported = import_lines(rivers, on_cells);
             ASSERT_EQ(imported.network.outlets().size(), 1U) << by << " " << turned;
             EXPECT_EQ(imported.network.node(imported.network.outlets()[0]).at, (Vec2{100, -300}))
                 << by << " " << turned;
@@ -279,7 +279,7 @@ TEST(ImportLakes, LinksNodesColumnsHeightsAndRanksDecide) {
 TEST(ImportLakes, ALakeWithoutAnOutflowIsNamed) {
     RiverLines const lines =
         with_lakes({{{100, 500}, {100, 200}}, {{-300, 100}, {0, 100}}, {{100, -45}, {100, -300}}}, {{square}});
-    Imported const imported = import_lines(lines, on_cells);
+    ImportedNetwork const imported = import_lines(lines, on_cells);
     EXPECT_EQ(imported.network.outlets().size(), 3U);
     ASSERT_EQ(imported.repairs.size(), 1U);
     EXPECT_TRUE(test::has(imported.repairs[0].text, "2 rivers end at the shore of a lake that no river leaves"))
@@ -292,7 +292,7 @@ TEST(ImportLakes, ItsWaterMayLeaveItWhereTheBorderIsNearest) {
     RiverLines const lines =
         with_lakes({{{100, 500}, {100, 200}}, {{-300, 100}, {0, 100}}, {{100, 900}, {200, 150}}}, {{square}});
     Grid const grid = frame_of(-400.0, 1000.0, 100, 110);
-    Imported const imported = import_lines(lines, {.cell_m = 10.0, .frame = &grid, .drains_lakes = true});
+    ImportedNetwork const imported = import_lines(lines, {.cell_m = 10.0, .frame = &grid, .drains_lakes = true});
     ASSERT_EQ(imported.network.outlets().size(), 1U);
     EXPECT_EQ(imported.network.node(imported.network.outlets()[0]).at.y, 0.0);
     EXPECT_EQ(crossed(imported).size(), 1U);
@@ -303,7 +303,7 @@ TEST(ImportLakes, OneTooSmallForAnOutflowKeepsItsWater) {
     Line const pond{{0, 98}, {36, 98}, {36, 102}, {0, 102}};
     RiverLines const lines = with_lakes({{{400, 100}, {36, 100}}, {{-300, 100}, {0, 100}}}, {{pond}});
     Grid const grid = frame_of(-400.0, 1000.0, 100, 110);
-    Imported const imported = import_lines(lines, {.cell_m = 10.0, .frame = &grid, .drains_lakes = true});
+    ImportedNetwork const imported = import_lines(lines, {.cell_m = 10.0, .frame = &grid, .drains_lakes = true});
     EXPECT_EQ(imported.network.outlets().size(), 2U);
     ASSERT_EQ(imported.repairs.size(), 1U);
     EXPECT_FALSE(test::has(imported.repairs[0].text, "its water leaves it")) << imported.repairs[0].text;
@@ -318,7 +318,7 @@ TEST(ImportLakes, ARiverFarBelowItIsNamed) {
         lines.lines[l].vertices[0].z = z[l][0];
         lines.lines[l].vertices[1].z = z[l][1];
     }
-    Imported const imported = import_lines(lines, on_cells);
+    ImportedNetwork const imported = import_lines(lines, on_cells);
     EXPECT_EQ(imported.network.outlets().size(), 2U);
     auto const below =
         std::ranges::find_if(imported.repairs, [](Finding const& f) { return f.kind == FindingKind("below_lake"); });
@@ -334,7 +334,7 @@ TEST(ImportLakes, RiversOfIslandsAndLinesAfloatReachTheWater) {
                                          {{100, 100}, {80, 100}}, // to the island's shore
                                          {{160, 20}, {160, 40}}}, // all of it in the lake
                                         {{square, island}});
-    Imported const imported = import_lines(lines, on_cells);
+    ImportedNetwork const imported = import_lines(lines, on_cells);
     ASSERT_EQ(imported.network.outlets().size(), 1U);
     EXPECT_EQ(imported.network.node(imported.network.outlets()[0]).at, (Vec2{100, -300}));
 }
@@ -343,7 +343,7 @@ TEST(ImportLakes, ALakeMayLieBeyondTheGrid) {
     Line const large{{0, 0}, {200, 0}, {2000, 200}, {0, 200}};
     RiverLines const lines = with_lakes({{{20, 500}, {20, 200}}, {{20, 0}, {20, -300}}}, {{large}});
     Grid const grid = frame_of(-10.0, 520.0, 12, 90);
-    Imported const imported = import_lines(lines, {.cell_m = 10.0, .frame = &grid});
+    ImportedNetwork const imported = import_lines(lines, {.cell_m = 10.0, .frame = &grid});
     ASSERT_EQ(imported.network.outlets().size(), 1U);
     for (Arc const& arc : imported.network.arcs()) {
         for (Vec2 const p : arc.line) {
@@ -363,7 +363,7 @@ TEST(ImportLakes, HeightsAreThoseOfTheOutflow) {
     for (Vec3& v : lines.lines[1].vertices) {
         v.z = v.y > -100.0 ? 48.0 : 20.0;
     }
-    Imported const imported = import_lines(lines, on_cells);
+    ImportedNetwork const imported = import_lines(lines, on_cells);
     ASSERT_EQ(imported.arc_z.size(), 1U);
     for (double const z : imported.arc_z[0]) {
         EXPECT_TRUE(z == 90.0 || z == 50.0 || z == 48.0 || z == 20.0) << z;
@@ -398,7 +398,7 @@ RC_GTEST_PROP(ImportLakes, AllInflowsReachTheOutflow, ()) {
         lines.push_back(m == 0 ? Line{shore[i], outside} : Line{outside, shore[i]});
     }
     RiverLines const rivers = with_lakes(lines, {lake});
-    Imported const imported = import_lines(rivers, on_cells);
+    ImportedNetwork const imported = import_lines(rivers, on_cells);
     RC_ASSERT(imported.network.outlets().size() == 1U);
     RC_ASSERT(imported.network.node(imported.network.outlets()[0]).at == lines[0].back());
     for (Arc const& arc : imported.network.arcs()) {

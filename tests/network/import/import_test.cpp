@@ -23,7 +23,7 @@ namespace import_test {
 using namespace thalweg;
 using network::Divergences;
 using network::import_lines;
-using network::Imported;
+using network::ImportedNetwork;
 using network::ImportParams;
 using network::Orientation;
 
@@ -46,7 +46,7 @@ RiverLines with_heights(std::vector<std::vector<Vec3>> const& all) {
     return lines;
 }
 
-Finding first(Imported const& imported, std::string const& kind) {
+Finding first(ImportedNetwork const& imported, std::string const& kind) {
     auto const found = std::ranges::find(imported.repairs, kind, &Finding::kind);
     return found == imported.repairs.end() ? Finding{"removed"} : *found;
 }
@@ -161,25 +161,25 @@ TEST(Import, RepeatedVerticesAreDropped) {
 TEST(Import, StepsBackAreRemoved) {
     // 3 cm backwards in a river of 20 km, as digitisers leave them.
     RiverLines const lines = with_heights({{{0, 0, 40}, {9000.03, 0, 30}, {9000, 0.001, 29}, {20000, 0, 20}}});
-    Imported const imported = import_lines(lines);
+    ImportedNetwork const imported = import_lines(lines);
     ASSERT_EQ(imported.network.arc_count(), 1U);
     EXPECT_EQ(imported.network.arc(0).line, (std::vector<Vec2>{{0, 0}, {9000, 0.001}, {20000, 0}}));
     EXPECT_EQ(imported.arc_z, (std::vector<std::vector<double>>{{40, 29, 20}}));
     EXPECT_NEAR(first(imported, "cut").amount, 0.03, 1e-3);
     EXPECT_NEAR(imported.stretches[0][0].to_m, 20000.0, 1e-3);
     // The step is what is left out, whether the river goes back before it turns or after.
-    Imported const before_turn =
+    ImportedNetwork const before_turn =
         import_lines(with_heights({{{0, 0, 9}, {9000, 0, 8}, {9000, -0.03, 7}, {9000.005, 11000, 6}}}));
     ASSERT_EQ(before_turn.network.arc_count(), 1U);
     EXPECT_EQ(before_turn.network.arc(0).line, (std::vector<Vec2>{{0, 0}, {9000, 0}, {9000.005, 11000}}));
-    for (Imported const* const one : {&imported, &before_turn}) {
+    for (ImportedNetwork const* const one : {&imported, &before_turn}) {
         ASSERT_EQ(one->secondary.size(), 1U);
         EXPECT_EQ(one->secondary[0].cause, LeftOut::too_short);
         EXPECT_NEAR(length_in_plan(one->secondary[0].vertices), 0.03, 2e-3);
     }
     // A bend is not a step back, however sharp; the tip where another river joins stays.
     EXPECT_EQ(count(import_lines(with_heights({{{0, 0, 9}, {500, 0, 8}, {0, 20, 7}}})).repairs, "cut"), 0U);
-    Imported const confluence =
+    ImportedNetwork const confluence =
         import_lines(test::lines_of({{{0, 0, no_z}, {9000.03, 0, no_z}, {9000, 0.001, no_z}, {20000, 0, no_z}},
                                      {{9000, -5000, no_z}, {9000.03, 0, no_z}}}));
     EXPECT_EQ(count(confluence.repairs, "cut"), 1U);
@@ -291,7 +291,7 @@ TEST(AdoptCuts, EndsThatPassARiverByCentimetres) {
     auto const file = flats({{{0, 20000}, {100, 15000}, {0.05, 9999.97}},
                              {{0, 10000}, {-100, 5000}, {0, 0}},
                              {{10000, 18000}, {0, 10000}}});
-    Imported const imported = import_lines(file);
+    ImportedNetwork const imported = import_lines(file);
     EXPECT_EQ(imported.network.arc_count(), 3U);
     EXPECT_EQ(count(imported.repairs, "cut"), 1);
     EXPECT_NEAR(first(imported, "cut").amount, 0.07, 0.005);

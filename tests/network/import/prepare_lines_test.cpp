@@ -76,7 +76,7 @@ std::vector<std::pair<std::int64_t, double>> kept(RiverLines const& before) {
     return result;
 }
 
-using Kept = std::vector<std::pair<std::int64_t, double>>;
+using ResultCache = std::vector<std::pair<std::int64_t, double>>;
 
 std::string const ditch = "waterway ditch";
 
@@ -85,32 +85,33 @@ Grid const ten{10, 10, 1.0, 0.0, 10.0, ""};
 } // namespace
 
 TEST(KeepConnectors, NothingToKeep) {
-    EXPECT_EQ(kept(file({}, {})), Kept{});
-    EXPECT_EQ(kept(file({}, {line(1, {{0, 0}, {5, 0}}, ditch)})), Kept{});
-    EXPECT_EQ(kept(file({line(1, {{0, 9}, {0, 0}})}, {line(2, {{50, 0}, {60, 0}}, ditch)})), Kept{});
+    EXPECT_EQ(kept(file({}, {})), ResultCache{});
+    EXPECT_EQ(kept(file({}, {line(1, {{0, 0}, {5, 0}}, ditch)})), ResultCache{});
+    EXPECT_EQ(kept(file({line(1, {{0, 9}, {0, 0}})}, {line(2, {{50, 0}, {60, 0}}, ditch)})), ResultCache{});
 }
 
 TEST(KeepConnectors, ARiverContinuesThroughADitch) {
     std::vector<RiverLine> const rivers = {line(1, {{0, 100}, {0, 50}}), line(2, {{0, 30}, {0, 0}})};
-    EXPECT_EQ(kept(file(rivers, {line(3, {{0, 50}, {0, 30}}, ditch)})), (Kept{{3, 20.0}}));
-    EXPECT_EQ(kept(file(rivers, {line(3, {{0, 30}, {0, 50}}, ditch)})), (Kept{{3, 20.0}})) << "drawn against the flow";
+    EXPECT_EQ(kept(file(rivers, {line(3, {{0, 50}, {0, 30}}, ditch)})), (ResultCache{{3, 20.0}}));
+    EXPECT_EQ(kept(file(rivers, {line(3, {{0, 30}, {0, 50}}, ditch)})), (ResultCache{{3, 20.0}}))
+        << "drawn against the flow";
     EXPECT_EQ(kept(file(rivers, {line(3, {{0, 50}, {0, 40}}, ditch), line(4, {{0, 40}, {0, 30}}, ditch)})),
-              (Kept{{3, 10.0}, {4, 10.0}}));
+              (ResultCache{{3, 10.0}, {4, 10.0}}));
     // By the shorter of two ways.
     EXPECT_EQ(kept(file(rivers, {line(3, {{0, 50}, {15, 40}, {0, 30}}, ditch), line(4, {{0, 50}, {0, 30}}, ditch)})),
-              (Kept{{4, 20.0}}));
+              (ResultCache{{4, 20.0}}));
     // Of a canal only the part that is needed.
     EXPECT_EQ(kept(file({line(1, {{0, 100}, {0, 50}}), line(2, {{20, 50}, {20, 0}})},
                         {line(3, {{-40, 50}, {0, 50}, {10, 50}, {20, 50}, {90, 50}}, ditch)})),
-              (Kept{{3, 20.0}}));
+              (ResultCache{{3, 20.0}}));
 }
 
 TEST(KeepConnectors, DitchesThatNoRiverNeedsAreLeftOut) {
     std::vector<RiverLine> const rivers = {line(1, {{0, 100}, {0, 50}, {0, 0}}), line(2, {{80, 90}, {80, 0}})};
-    EXPECT_EQ(kept(file(rivers, {line(3, {{30, 60}, {0, 50}}, ditch)})), Kept{}) << "it drains a field";
-    EXPECT_EQ(kept(file(rivers, {line(3, {{0, 50}, {30, 40}}, ditch)})), Kept{}) << "it irrigates one";
-    EXPECT_EQ(kept(file(rivers, {line(3, {{0, 50}, {80, 90}}, ditch)})), Kept{}) << "it feeds another river";
-    EXPECT_EQ(kept(file(rivers, {line(3, {{0, 0}, {0, -50}}, ditch)})), Kept{}) << "it leads to no river";
+    EXPECT_EQ(kept(file(rivers, {line(3, {{30, 60}, {0, 50}}, ditch)})), ResultCache{}) << "it drains a field";
+    EXPECT_EQ(kept(file(rivers, {line(3, {{0, 50}, {30, 40}}, ditch)})), ResultCache{}) << "it irrigates one";
+    EXPECT_EQ(kept(file(rivers, {line(3, {{0, 50}, {80, 90}}, ditch)})), ResultCache{}) << "it feeds another river";
+    EXPECT_EQ(kept(file(rivers, {line(3, {{0, 0}, {0, -50}}, ditch)})), ResultCache{}) << "it leads to no river";
 }
 
 TEST(KeepConnectors, RiversThatAreDrawnUpstreamEndWhereTheyBegin) {
@@ -118,25 +119,25 @@ TEST(KeepConnectors, RiversThatAreDrawnUpstreamEndWhereTheyBegin) {
     EXPECT_EQ(kept(file({line(1, {{0, 50}, {0, 80}}), line(2, {{0, 80}, {9, 99}}), line(3, {{0, 80}, {-9, 99}}),
                          line(4, {{0, 0}, {0, 30}})},
                         {line(5, {{0, 50}, {0, 30}}, ditch)})),
-              (Kept{{5, 20.0}}));
+              (ResultCache{{5, 20.0}}));
 }
 
 TEST(KeepConnectors, HeightsDecideWhereARiverEnds) {
     RiverLines lines =
         file({line(1, {{0, 50}, {0, 100}}), line(2, {{0, 30}, {0, 0}})}, {line(3, {{0, 50}, {0, 30}}, ditch)});
-    EXPECT_EQ(kept(lines), Kept{});
+    EXPECT_EQ(kept(lines), ResultCache{});
     lines.lines[0].vertices[0].z = 5.0;
     lines.lines[0].vertices[1].z = 9.0;
     lines.lines[1].vertices[0].z = lines.lines[1].vertices[1].z = 1.0;
     lines.has_z = true;
-    EXPECT_EQ(kept(lines), (Kept{{3, 20.0}}));
+    EXPECT_EQ(kept(lines), (ResultCache{{3, 20.0}}));
     EXPECT_FALSE(network::keep_connectors(lines, 0.0).has_z); // the ditch has none yet
 }
 
 TEST(KeepConnectors, EndsMeetWithinTheSnappingDistance) {
     RiverLines const lines =
         file({line(1, {{0, 100}, {0, 52}}), line(2, {{1, 29}, {0, 0}})}, {line(3, {{0, 50}, {0, 30}}, ditch)});
-    EXPECT_EQ(kept(lines), Kept{});
+    EXPECT_EQ(kept(lines), ResultCache{});
     EXPECT_EQ(network::keep_connectors(lines, 3.0).lines.size(), 3U);
 }
 

@@ -179,7 +179,7 @@ struct PlainGround {
 };
 
 /// What was added at each carried outlet, the old outlet first; checks that all that was drawn is still there.
-std::vector<std::vector<Vec2>> ways_of(StreamNetwork const& before, network::Carried const& carried) {
+std::vector<std::vector<Vec2>> ways_of(StreamNetwork const& before, network::CarriedNetwork const& carried) {
     std::vector<std::vector<Vec2>> ways;
     RC_ASSERT(carried.network.arc_count() >= before.arc_count());
     for (std::size_t a = 0; a < carried.network.arc_count(); ++a) {

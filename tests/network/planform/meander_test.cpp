@@ -21,7 +21,7 @@ namespace {
 
 using namespace thalweg;
 using network::meander;
-using network::Meandered;
+using network::MeanderedNetwork;
 using test::meetings_of;
 
 /// Areas that grow downstream: a hundred cells for each source.
@@ -85,7 +85,7 @@ TEST(Meander, AStraightRiverIsStraightNoLonger) {
     Vec2 const mouth{grid.west + 1500.0, grid.south()};
     StreamNetwork const net = test::network_of({mouth, {grid.west + 1500.0, grid.north - 300.0}}, {{1, 0}});
     for (std::uint64_t seed = 1; seed < 20; ++seed) {
-        Meandered const out = meander(net, grid, {9e6}, {.seed = seed});
+        MeanderedNetwork const out = meander(net, grid, {9e6}, {.seed = seed});
         auto const& line = out.network.arc(0).line;
         double const sinuosity = length_of(line) / distance(line.front(), line.back());
         EXPECT_GT(sinuosity, 1.02) << seed;
@@ -102,7 +102,7 @@ TEST(Meander, RoundedStepsStayWithinHalfACell) {
     }
     StreamNetwork const net =
         test::network_of({steps.front(), steps.back()}, {{0, 1, {steps.begin() + 1, steps.end() - 1}}});
-    Meandered const out = meander(net, grid, {9e6}, {.gain = 0.0});
+    MeanderedNetwork const out = meander(net, grid, {9e6}, {.gain = 0.0});
     auto const& line = out.network.arc(0).line;
     EXPECT_LE(out.max_shift_m, 15.0 + 1e-6);
     EXPECT_LT(length_of(line), 1.1 * distance(line.front(), line.back()));
@@ -117,7 +117,7 @@ TEST(Meander, TheSameTreeOfRiversThatDoNotMeet) {
         StreamNetwork const net = lattice_rivers(seed, grid);
         RC_PRE(net.arc_count() > 0U);
         RC_ASSERT(meetings_of(net).empty());
-        Meandered const out = meander(net, grid, some_areas(net, grid), {.gain = gain, .seed = seed});
+        MeanderedNetwork const out = meander(net, grid, some_areas(net, grid), {.gain = gain, .seed = seed});
         RC_ASSERT(out.network.from() == net.from());
         RC_ASSERT(out.network.to() == net.to());
         RC_ASSERT(meetings_of(out.network).empty());
@@ -167,7 +167,7 @@ TEST(Meander, RiversStayOnLandAndEndWhereTheyEnded) {
                 land[c] = 1;
             }
         }
-        Meandered const out = meander(net, land, some_areas(net, grid), {.seed = seed});
+        MeanderedNetwork const out = meander(net, land, some_areas(net, grid), {.seed = seed});
         RC_ASSERT(meetings_of(out.network).empty());
         for (NodeId const n : net.outlets()) {
             RC_ASSERT(out.network.node(n).at == net.node(n).at);

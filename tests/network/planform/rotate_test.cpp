@@ -19,7 +19,7 @@ namespace {
 
 using namespace thalweg;
 using network::rotate;
-using network::Rotated;
+using network::RotatedNetwork;
 
 TEST(Rotate, RefusesWhatItCannotTurn) {
     StreamNetwork const net = test::network_of({{0.0, 0.0}, {0.0, 9.0}}, {{1, 0}});
@@ -33,7 +33,7 @@ TEST(Rotate, RefusesWhatItCannotTurn) {
 
 TEST(Rotate, AQuarterTurnIsCounterClockwise) {
     StreamNetwork const net = test::network_of({{0.0, 0.0}, {0.0, 8.0}}, {{1, 0}});
-    Rotated const out = rotate(net, test::frame(10, 10), {90.0});
+    RotatedNetwork const out = rotate(net, test::frame(10, 10), {90.0});
     EXPECT_EQ(out.network.node(0).at, (Vec2{9.0, 5.0}));
     EXPECT_EQ(out.network.node(1).at, (Vec2{1.0, 5.0}));
 }
@@ -48,7 +48,7 @@ TEST(Rotate, TheSameRiversInTheMiddleOfTheirGrid) {
         Grid frame = test::frame(0, 0);
         frame.west = 500000.0;
         frame.north = 5000000.0;
-        Rotated const out = rotate(net, frame, {turn});
+        RotatedNetwork const out = rotate(net, frame, {turn});
         RC_ASSERT(out.network.from() == net.from());
         for (std::size_t a = 0; a < net.arc_count(); ++a) {
             auto const& line = out.network.arc(a).line;

@@ -203,7 +203,7 @@ TEST(Prune, Laws) {
     ASSERT_TRUE(rc::check("a forest without short leaves or nodes of degree two", [] {
         StreamNetwork const net = prune(test::any_network(), {0.0, 1.0}).network;
         double const length = any_length(net);
-        network::Pruned const pruned = prune(net, {length, 1.0});
+        network::PrunedNetwork const pruned = prune(net, {length, 1.0});
         RC_ASSERT(pruned.arcs_before == static_cast<std::int64_t>(net.arc_count()));
         RC_ASSERT(pruned.network.node_count() == pruned.network.arc_count() + pruned.network.outlets().size());
         RC_ASSERT(pruned.network.upstream_order().size() == pruned.network.node_count());
@@ -215,7 +215,7 @@ TEST(Prune, Laws) {
             RC_ASSERT(pruned.network.arc(a).line.back() == pruned.network.node(pruned.network.to(a)).at);
         }
         RC_ASSERT(same_network(prune(pruned.network, {length, 1.0}).network, pruned.network));
-        network::Pruned const before = prune(net, {*rc::gen::element(0.3, 0.8) * length, 1.0});
+        network::PrunedNetwork const before = prune(net, {*rc::gen::element(0.3, 0.8) * length, 1.0});
         RC_ASSERT(lines_of(prune(before.network, {length, 1.0}).network) == lines_of(pruned.network)); // as at once
         RC_ASSERT(prune(before.network, {length, 1.0}).network.from() == pruned.network.from());
     }));
@@ -244,8 +244,8 @@ TEST(Prune, TheSameArcsWhateverTheCell) {
         RC_PRE(cells > 12);
         StreamNetwork const coarse = network::trace(mask, {mouth});
         StreamNetwork const small = network::trace(fine, {fine.grid().centre({20, 39})});
-        network::Pruned const a = prune(coarse, {3.0, 1.0});
-        network::Pruned const b = prune(small, {3.0 * 0.1, 0.1});
+        network::PrunedNetwork const a = prune(coarse, {3.0, 1.0});
+        network::PrunedNetwork const b = prune(small, {3.0 * 0.1, 0.1});
         RC_ASSERT(a.network.from() == b.network.from());
         RC_ASSERT(a.network.to() == b.network.to());
         for (std::size_t k = 0; k < a.network.arc_count(); ++k) {

@@ -379,7 +379,7 @@ TEST(Poisson, SameBytesForAnyThreadsAndLanes) {
     }
     std::vector<Raster<double>> values;
     for (Lanes const lanes : {Lanes::plain, widest_lanes()}) {
-        ColouredProblem iterate = coloured(problem, look_through(problem, "test", {}), {});
+        ColouredProblem iterate = coloured(problem, survey_problem(problem, "test", {}), {});
         auto levels = coarse_levels(problem.kind, {});
         double const zero = residual_norm(iterate, grid_rows(lanes), {});
         conjugate_gradients(iterate, levels, zero, {1e-8, 100}, grid_rows(lanes), {});

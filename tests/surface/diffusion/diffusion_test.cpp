@@ -130,7 +130,7 @@ TEST(Diffuse, PartsWithoutASkeletonStayEmpty) {
         inside[{4, row}] = 0;
     }
     for (DiffuseParams const& params : {DiffuseParams{}, sweeps(10)}) {
-        Diffused const d = diffuse(land, inside, params);
+        DiffusedDem const d = diffuse(land, inside, params);
         for (std::int64_t i = 0; i < d.dem.cells(); ++i) {
             Cell const c = d.dem.grid().at(i);
             EXPECT_TRUE(c.col < 4 ? d.dem[i] == 7.0F : std::isnan(d.dem[i])) << c.col << ' ' << c.row;
@@ -146,7 +146,7 @@ TEST(Diffuse, KeepsSkeletonAndRange) {
         DiffuseParams params = *rc::gen::element(0, 1).as("explicit") == 0 ? DiffuseParams{} : sweeps(7);
         params.sigma_cells = *rc::gen::element(0.0, 0.4, 1.0, 2.5).as("sigma");
         params.passes = *rc::gen::element(0, 1, 3).as("passes");
-        Diffused const d = diffuse(skeleton_of(valley), inside, params);
+        DiffusedDem const d = diffuse(skeleton_of(valley), inside, params);
         float lowest = std::numeric_limits<float>::infinity();
         float highest = -lowest;
         for (std::int64_t i = 0; i < d.dem.cells(); ++i) {
@@ -209,7 +209,7 @@ TEST(Diffuse, SweepsTendToTheSteadyState) {
     double before = std::numeric_limits<double>::infinity();
     for (int const count : {10, 100, 1000}) {
         for (DiffusionStart const start : {DiffusionStart::zero, DiffusionStart::coarse}) {
-            Diffused const d = diffuse(skeleton, unsmoothed(sweeps(count, start)));
+            DiffusedDem const d = diffuse(skeleton, unsmoothed(sweeps(count, start)));
             EXPECT_LT(d.residual, before) << count;
             before = start == DiffusionStart::zero ? before : d.residual;
             EXPECT_EQ(d.iterations, count);
@@ -227,7 +227,7 @@ TEST(Diffuse, EqualHeightsMakeAPlain) {
         z = std::isnan(z) ? z : 123.4F;
     }
     for (DiffuseParams const& params : {DiffuseParams{}, sweeps(50)}) {
-        Diffused const d = diffuse(skeleton_of(valley), params);
+        DiffusedDem const d = diffuse(skeleton_of(valley), params);
         EXPECT_EQ(std::count(d.dem.values().begin(), d.dem.values().end(), 123.4F), d.dem.cells());
     }
 }

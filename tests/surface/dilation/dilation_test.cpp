@@ -57,7 +57,7 @@ double flats(Valley const& valley, Raster<float> const& dem) {
     return dry > 0.0 ? flat / dry : 0.0;
 }
 
-std::string as_text(Dilated const& d) {
+std::string as_text(DilatedDem const& d) {
     std::string text;
     char number[32];
     for (std::int64_t row = 0; row < d.dem.height(); ++row) {
@@ -149,7 +149,7 @@ TEST(Dilate, RefusesWhatCannotBeDilated) {
 TEST(Dilate, AllRiver) {
     Valley const valley{Raster<float>(test::frame_below(3, 2), -0.0F)};
     for (Metric const metric : {Metric::cityblock, Metric::euclid}) {
-        Dilated const d = dilate(valley, with("rise_fall", metric, 100.0));
+        DilatedDem const d = dilate(valley, with("rise_fall", metric, 100.0));
         EXPECT_TRUE(same_bits(d.dem, valley.z));
         EXPECT_EQ(d.levels, 0);
         EXPECT_TRUE(d.increments.empty());
@@ -158,7 +158,7 @@ TEST(Dilate, AllRiver) {
 }
 
 TEST(Dilate, PapersUnitsCountInCells) {
-    Dilated const d = dilate(ditch(4, 7.0F, 30.0), with("decreasing"));
+    DilatedDem const d = dilate(ditch(4, 7.0F, 30.0), with("decreasing"));
     ASSERT_EQ(d.levels, 3);
     EXPECT_NEAR(d.increments[2], 30.0 * 2.97, 1e-12);
     EXPECT_FLOAT_EQ(d.dem[3], static_cast<float>(7.0 + 30.0 * (2.99 + 2.98 + 2.97)));
@@ -183,7 +183,7 @@ TEST(Dilate, IsTheLiteralLoopOfThePaper) {
             auto const dh = increments(valley.z.cells(), {name});
             auto const sums = heights_above_valley(dh);
             auto const literal = valleys::literal_dilation(valley, inside, dh);
-            Dilated const d = dilate(valley, inside, with(name));
+            DilatedDem const d = dilate(valley, inside, with(name));
             for (std::int64_t i = 0; i < valley.z.cells(); ++i) {
                 double const expected = literal[static_cast<std::size_t>(i)];
                 RC_ASSERT(std::isnan(expected) == (e.level[i] < 0));
@@ -203,7 +203,7 @@ TEST(Dilate, KeepsTheValleyToTheBit) {
         Valley const valley = valleys::any(30);
         for (Metric const metric : {Metric::cityblock, Metric::euclid}) {
             for (std::string const& increment : {"uniform", "0*x"}) {
-                Dilated const d = dilate(valley, with(increment, metric));
+                DilatedDem const d = dilate(valley, with(increment, metric));
                 for (std::int64_t i = 0; i < valley.z.cells(); ++i) {
                     RC_ASSERT(!std::isnan(d.dem[i]));
                     RC_ASSERT((std::isnan(valley.z[i]) ||
@@ -220,8 +220,8 @@ TEST(Dilate, ThreadsChangeNoByte) {
     for (Metric const metric : {Metric::cityblock, Metric::euclid}) {
         for (double const relief_m : {0.0, 300.0}) {
             DilateParams const params = with("rise_fall", metric, relief_m);
-            Dilated const one = dilate(valley, params, on_threads(1));
-            Dilated const two = dilate(valley, params, on_threads(2));
+            DilatedDem const one = dilate(valley, params, on_threads(1));
+            DilatedDem const two = dilate(valley, params, on_threads(2));
             EXPECT_TRUE(same_bits(one.dem, two.dem));
             EXPECT_EQ(one.increments, two.increments);
             EXPECT_EQ(one.flat_share, two.flat_share);
@@ -234,8 +234,8 @@ TEST(Dilate, ThreadsChangeNoByte) {
 TEST(Dilate, AnOpenMaskChangesNoByte) {
     Valley const valley = valleys::by_chance(40, 33, 0.02, 11);
     for (Metric const metric : {Metric::cityblock, Metric::euclid}) {
-        Dilated const open = dilate(valley, with("rise_fall", metric));
-        Dilated const masked = dilate(valley, Mask(valley.z.grid(), 7), with("rise_fall", metric));
+        DilatedDem const open = dilate(valley, with("rise_fall", metric));
+        DilatedDem const masked = dilate(valley, Mask(valley.z.grid(), 7), with("rise_fall", metric));
         EXPECT_TRUE(same_bits(open.dem, masked.dem));
     }
 }
@@ -253,7 +253,7 @@ TEST(Dilate, ReachesTheReliefAskedFor) {
         double const relief_m = *rc::gen::element(0.0, 250.0).as("relief");
         DilateParams params = with(increment, metric, relief_m);
         params.increment.allow_negative = true;
-        Dilated const d = dilate(valley, inside, params);
+        DilatedDem const d = dilate(valley, inside, params);
         RC_ASSERT(static_cast<std::int64_t>(d.increments.size()) == d.levels);
         float highest = 0.0F;
         for (float const z : d.dem.values()) {
@@ -282,7 +282,7 @@ TEST(Dilate, CountsFlats) {
         for (Metric const metric : {Metric::cityblock, Metric::euclid}) {
             DilateParams params = with(increment, metric);
             params.increment.allow_negative = true;
-            Dilated const d = dilate(valley, inside, params);
+            DilatedDem const d = dilate(valley, inside, params);
             RC_ASSERT(d.flat_share == flats(within, d.dem));
         }
     }));
@@ -293,7 +293,7 @@ TEST(DilateEuclid, IsTheNearestOfAllValleyCells) {
         Valley const valley = valleys::any(18);
         Grid const& grid = valley.z.grid();
         Mask const inside = valleys::barriers(valley, *rc::gen::element(0.0, 0.3).as("walls"), 6);
-        Dilated const d = dilate(valley, inside, with("rise_fall", Metric::euclid));
+        DilatedDem const d = dilate(valley, inside, with("rise_fall", Metric::euclid));
         auto const dh = increments(100, {"rise_fall"});
         auto const sums = heights_above_valley(dh);
         for (std::int64_t i = 0; i < grid.cells(); ++i) {
@@ -460,8 +460,8 @@ TEST(DilateOver, RisesFromTheBaseAsADilationRisesFromLevelGround) {
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         base[i] = static_cast<float>(i % 5) * 3.0F;
     }
-    Dilated const rise = dilate(level, even_slopes());
-    Dilated const land = dilate_over(valley, base, even_slopes());
+    DilatedDem const rise = dilate(level, even_slopes());
+    DilatedDem const land = dilate_over(valley, base, even_slopes());
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         EXPECT_EQ(land.dem[i], std::isnan(valley.z[i]) ? base[i] + rise.dem[i] : valley.z[i]);
     }
@@ -475,7 +475,7 @@ TEST(DilateOver, CellsBehindABarrierStayWithout) {
     for (std::int64_t row = 0; row < grid.height; ++row) {
         inside[Cell{2, row}] = 0;
     }
-    Dilated const land = dilate_over(valley, Raster<float>(grid, 5.0F), inside, even_slopes());
+    DilatedDem const land = dilate_over(valley, Raster<float>(grid, 5.0F), inside, even_slopes());
     EXPECT_TRUE(std::isnan(land.dem[Cell{0, 3}]));
     EXPECT_TRUE(std::isnan(land.dem[Cell{2, 3}]));
     EXPECT_FALSE(std::isnan(land.dem[Cell{3, 3}]));

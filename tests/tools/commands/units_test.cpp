@@ -248,7 +248,7 @@ TEST(Units, MetresOfWebMercatorAreNone) {
     EXPECT_NEAR(expect_run(place, "stats w.tif --json", 0).json()["slope_true_deg"].get<double>(), slope, 0.15 * slope);
     EXPECT_FALSE(test::has(expect_run(place, "stats w.tif --recipe", 0).out, "3857"));
     EXPECT_EQ(expect_run(place, "measure w.tif -o m --json", 0).json()["findings"][0]["kind"], "dem_reprojected");
-    // Pasted it is warped to the target, which tells where it lies; laid elsewhere its size would be unknown.
+    // PastedDem it is warped to the target, which tells where it lies; laid elsewhere its size would be unknown.
     expect_run(place, "blend out/dem.tif w.tif -o b.tif --window 20,20,30,30", 0);
     expect_refused(place, "",
                    {"points w.tif -o p.xyz", "tin w.tif -o t.obj", "check out --dem w.tif",

@@ -74,12 +74,12 @@ template <std::size_t N> double polynomial(std::array<double, N> const& c, doubl
 }
 
 /// x = mantissa 2^exponent with the mantissa in [sqrt(1/2), sqrt(2)].
-struct Scaled {
+struct ScaledNumber {
     double mantissa;
     double exponent;
 };
 
-Scaled split(double x) {
+ScaledNumber split(double x) {
     double exponent = 0.0;
     if (x < std::numeric_limits<double>::min()) {
         x *= 0x1p54;
@@ -88,7 +88,7 @@ Scaled split(double x) {
     auto const bits = std::bit_cast<std::uint64_t>(x);
     exponent += static_cast<double>(static_cast<std::int64_t>(bits >> 52) - 1023);
     double const mantissa = std::bit_cast<double>((bits & 0x000fffffffffffffULL) | 0x3ff0000000000000ULL);
-    return mantissa > sqrt2 ? Scaled{0.5 * mantissa, exponent + 1.0} : Scaled{mantissa, exponent};
+    return mantissa > sqrt2 ? ScaledNumber{0.5 * mantissa, exponent + 1.0} : ScaledNumber{mantissa, exponent};
 }
 
 double power_of_two(std::int64_t k) {
@@ -129,7 +129,7 @@ DoubleDouble log_double_double(double x) {
     static constexpr DoubleDouble fifth = {0x1.999999999999ap-3, -0x1.999999999999ap-57};
     static constexpr std::array<double, 9> rest = {1.0 / 7.0,  1.0 / 9.0,  1.0 / 11.0, 1.0 / 13.0, 1.0 / 15.0,
                                                    1.0 / 17.0, 1.0 / 19.0, 1.0 / 21.0, 1.0 / 23.0};
-    Scaled const part = split(x);
+    ScaledNumber const part = split(x);
     double const above = part.mantissa - 1.0;
     DoubleDouble const below = sum(part.mantissa, 1.0);
     double const s_hi = above / below.hi;
@@ -163,12 +163,12 @@ double cos_near_zero(DoubleDouble r) {
 }
 
 /// x = r + quarter pi/2 (modulo 2 pi), |r| <= pi/4 (Cody and Waite 1980, in four pieces).
-struct Turned {
+struct ReducedAngle {
     DoubleDouble rest;
     int quarter;
 };
 
-Turned turn(double x) {
+ReducedAngle turn(double x) {
     double const n = std::floor(x * two_over_pi + 0.5);
     DoubleDouble const first = sum(x - n * half_pi[0], -n * half_pi[1]);
     DoubleDouble const second = sum(first.hi, -n * half_pi[2]);
@@ -233,7 +233,7 @@ double sin(double x) {
     if (!(std::fabs(x) <= widest_angle)) {
         return not_a_number;
     }
-    Turned const t = turn(x);
+    ReducedAngle const t = turn(x);
     double const value = t.quarter % 2 == 0 ? sin_near_zero(t.rest) : cos_near_zero(t.rest);
     return t.quarter < 2 ? value : -value;
 }
@@ -242,7 +242,7 @@ double cos(double x) {
     if (!(std::fabs(x) <= widest_angle)) {
         return not_a_number;
     }
-    Turned const t = turn(x);
+    ReducedAngle const t = turn(x);
     double const value = t.quarter % 2 == 0 ? cos_near_zero(t.rest) : sin_near_zero(t.rest);
     return t.quarter == 0 || t.quarter == 3 ? value : -value;
 }

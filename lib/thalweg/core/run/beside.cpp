@@ -13,7 +13,7 @@ Beside::Beside(Run const& run, char const* what)
     job_run_.progress = nullptr;
     job_run_.log = nullptr;
     job_run_.preview = nullptr;
-    job_run_.kept = nullptr;
+    job_run_.cache = nullptr;
     job_run_.stop = stop_.get_token();
 }
 

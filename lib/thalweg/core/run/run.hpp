@@ -14,7 +14,7 @@ namespace thalweg {
 enum class Device : std::uint8_t { cpu, opencl };
 
 template <class T> class Raster;
-class Kept;
+class ResultCache;
 struct Finding;
 struct StageTime;
 
@@ -40,7 +40,7 @@ struct Run {
     /// Receives a terrain while it is made: heights [m], first of larger cells, which what follows refines;
     /// is_finished: those of the result. Called by one thread at a time; empty: nobody looks on.
     std::function<void(Raster<float> const& dem, bool is_finished)> preview;
-    Kept* kept = nullptr; ///< results of stages of earlier runs; null: all stages run
+    ResultCache* cache = nullptr; ///< results of stages of earlier runs; null: all stages run
 
     /// Reports progress.
     /// \param share [0, 1] done

@@ -14,7 +14,8 @@ struct MainStem {
     std::vector<double> from_out_m; ///< by vertex, along the stream
 };
 
-/// The course of the main stem. \param orders of this network
+/// The course of the main stem.
+/// \param orders of this network
 MainStem main_stem(StreamNetwork const& network, NetworkOrders const& orders);
 
 } // namespace thalweg::draw

@@ -21,7 +21,9 @@ struct GlbScene {
 };
 
 /// Makes a binary glTF 2.0: nodes terrain (triangles with normals and texture) and rivers (lines), Y up: x is the
-/// mesh's x, y its z, z its -y. \return the file's bytes \throws BadInput beyond 2^32 - 1 bytes
+/// mesh's x, y its z, z its -y.
+/// \return the file's bytes
+/// \throws BadInput beyond 2^32 - 1 bytes
 ///
 /// Source: Khronos, glTF 2.0 Specification (ISO/IEC 12113:2022).
 std::string glb(GlbScene const& scene, Run const& run = {});

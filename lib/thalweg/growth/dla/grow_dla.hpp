@@ -37,7 +37,7 @@ enum class VisitRule : std::uint8_t {
     stick_then_count ///< only passed stick tests count; walkers before the M-th are removed
 };
 
-/// Options of least_arrivals().
+/// Options of grow_dla().
 struct DlaParams {
     std::int64_t particles = 26000; ///< [1, ...] size of the cluster, its seed included
     double sticking = 0.85;         ///< (0, 1] S: a walker with n occupied 4-neighbours sticks with probability S^(3-n)
@@ -66,6 +66,7 @@ struct Cluster {
 /// \return [arrivals]
 double least_arrivals(DlaParams const& params);
 
+/// \internal
 /// Checks options for grow_dla.
 /// \throws BadParameter when a value is outside its range or growth needs more than 1e12 arrivals (about a day)
 void require_growth(DlaParams const& params);

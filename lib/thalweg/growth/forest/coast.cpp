@@ -183,9 +183,9 @@ std::vector<Candidate> candidates(Mask const& land, std::vector<Cell> const& coa
 }
 
 /// The selected outlets by position.
-class Taken {
+class SelectedOutlets {
 public:
-    explicit Taken(double widest) : side_(static_cast<std::int64_t>(std::ceil(widest)) + 1) {}
+    explicit SelectedOutlets(double widest) : side_(static_cast<std::int64_t>(std::ceil(widest)) + 1) {}
 
     void add(Candidate const& c) { blocks_[key(c.cell.col / side_, c.cell.row / side_)].push_back(c); }
 
@@ -297,7 +297,7 @@ std::vector<Cell> spread_outlets(Mask const& land, std::vector<Cell> const& coas
     std::vector<Cell> outlets;
     // A pass selects cells that keep the distance; if these are too few, the next pass reduces it.
     double mean = length / static_cast<double>(wanted);
-    Taken taken(std::max(mean, least_apart_cells));
+    SelectedOutlets taken(std::max(mean, least_apart_cells));
     for (;; mean *= 0.7) {
         run.check();
         for (Candidate const& c : all) {

@@ -293,19 +293,19 @@ Vec2 far_end(EmbedParams const& params, double spacing) {
 }
 
 /// A tree without its lowest orders; links without inflow between them are joined.
-struct Thinned {
+struct ThinnedTree {
     std::vector<ForestLink> links;
     std::vector<std::vector<LinkId>> links_of; ///< of the tree, by link of the forest, downstream first
 };
 
-Thinned thinned(TokunagaTree const& tree, int lowest) {
+ThinnedTree thinned(TokunagaTree const& tree, int lowest) {
     std::vector<int> arrivals(tree.links.size(), 0);
     for (TreeLink const& link : tree.links) {
         if (link.down >= 0 && link.order >= lowest) {
             ++arrivals[link.down];
         }
     }
-    Thinned out;
+    ThinnedTree out;
     std::vector<LinkId> part(tree.links.size(), -1); // of the forest
     for (std::size_t i = 0; i < tree.links.size(); ++i) {
         TreeLink const& link = tree.links[i];
@@ -326,11 +326,11 @@ Thinned thinned(TokunagaTree const& tree, int lowest) {
 }
 
 /// Keeps as many orders as fit with the minimum spacing.
-Thinned thinned_to_fit(TokunagaTree const& tree, double area_m2, double min_spacing_m) {
+ThinnedTree thinned_to_fit(TokunagaTree const& tree, double area_m2, double min_spacing_m) {
     constexpr double room = 1.8; // links without a common node keep apart, along a stream too
     int const highest = tree.links.empty() ? 1 : tree.links.front().order;
     for (int lowest = 1;; ++lowest) {
-        Thinned out = thinned(tree, lowest);
+        ThinnedTree out = thinned(tree, lowest);
         if (lowest >= highest || std::sqrt(area_m2 / static_cast<double>(out.links.size())) >= room * min_spacing_m) {
             return out;
         }
@@ -400,7 +400,7 @@ EmbeddedTree embed_tree(TokunagaTree const& tree, EmbedParams const& params, Run
     EmbeddedTree out;
     double const area = std::fabs(geometry::signed_area(params.region));
     out.spacing_m = std::sqrt(area / static_cast<double>(tree.links.size()));
-    Thinned const fits = thinned_to_fit(tree, area, params.min_spacing_m);
+    ThinnedTree const fits = thinned_to_fit(tree, area, params.min_spacing_m);
     Forest forest;
     forest.links = fits.links;
     forest.shares.push_back({.mouth = {rounded(params.mouth.x), rounded(params.mouth.y)},

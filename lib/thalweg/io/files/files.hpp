@@ -59,6 +59,7 @@ private:
     bool committed_ = false;
 };
 
+/// \internal
 /// Tells which files a folder has already.
 /// \param folder any, also one that does not exist
 /// \param names of files, relative to it
@@ -68,17 +69,20 @@ private:
 std::vector<std::string> files_there(std::string const& folder, std::vector<std::string> const& names,
                                      Existing existing);
 
+/// \internal
 /// Tells whether a path is a pipe, a socket or a terminal, where opening or reading may block forever.
 /// \param path any
 /// \return false: a file, a folder or nothing
 bool is_pipe_or_device(std::string const& path);
 
+/// \internal
 /// Rejects pipes and devices.
 /// \param path any
 /// \param what its name in messages
 /// \throws BadInput when is_pipe_or_device
 void refuse_pipe(std::string const& path, std::string const& what);
 
+/// \internal
 /// Reads a file.
 /// \param path of the file
 /// \param max_bytes limit of its size
@@ -86,12 +90,14 @@ void refuse_pipe(std::string const& path, std::string const& what);
 /// \throws BadInput when it does not exist, or is a folder, a pipe or larger than max_bytes
 std::string read_text(std::string const& path, std::int64_t max_bytes);
 
+/// \internal
 /// Writes a new file.
 /// \param path of the file
 /// \param text its bytes
 /// \throws IoError with the path and the system's reason, also when the file exists
 void write_text(std::string const& path, std::string_view text);
 
+/// \internal
 /// Copies a file's bytes into a new file.
 /// \param from path of the file
 /// \param to path of the copy

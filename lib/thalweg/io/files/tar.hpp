@@ -9,6 +9,7 @@
 
 namespace thalweg::io {
 
+/// \internal
 /// Formats a file as an entry of a tar archive: a header and the bytes, in blocks of 512 bytes, with mode 644, owner 0
 /// and time 0. An archive is any number of entries and tar_end().
 /// \param name [1, 100] bytes, with / between folders
@@ -19,6 +20,7 @@ namespace thalweg::io {
 /// Source: IEEE Std 1003.1 (POSIX), pax, ustar interchange format.
 std::string tar_entry(std::string const& name, std::string_view bytes);
 
+/// \internal
 /// \return the end of an archive: two empty blocks
 std::string tar_end();
 

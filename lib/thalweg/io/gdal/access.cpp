@@ -97,8 +97,9 @@ thread_local Refusal refused;
 
 struct Roots {
     std::mutex mutex;
-    std::map<std::thread::id, std::vector<std::string>> folders; ///< by thread: two entries for each Confined of it
-    std::string tables;                                          ///< GDAL's own
+    std::map<std::thread::id, std::vector<std::string>>
+        folders;        ///< by thread: two entries for each ConfinedFolder of it
+    std::string tables; ///< GDAL's own
 };
 
 Roots& roots() {
@@ -174,15 +175,15 @@ bool is_any(char const* /*path*/) {
 }
 
 /// A file system of GDAL's that is closed to some names.
-class Guarded : public VSIFilesystemHandler {
+class GuardedFileSystem : public VSIFilesystemHandler {
 public:
     using Allows = bool (*)(char const*);
     /// allows: which files may be accessed; opens: which of them may be opened.
-    Guarded(VSIFilesystemHandler* inner, Allows allows, Allows opens = is_any)
+    GuardedFileSystem(VSIFilesystemHandler* inner, Allows allows, Allows opens = is_any)
         : inner_(inner), allows_(allows), opens_(opens) {}
-    ~Guarded() override { delete inner_; }
-    Guarded(Guarded const&) = delete;
-    Guarded& operator=(Guarded const&) = delete;
+    ~GuardedFileSystem() override { delete inner_; }
+    GuardedFileSystem(GuardedFileSystem const&) = delete;
+    GuardedFileSystem& operator=(GuardedFileSystem const&) = delete;
 
     VSIVirtualHandle* Open(char const* path, char const* access, bool set_error, CSLConstList options) override {
         if (!may(path)) {
@@ -282,11 +283,11 @@ void guard_file_systems() {
     for (int i = 0; i < prefixes.size(); ++i) {
         std::string_view const prefix = prefixes[i];
         if (!prefix.empty() && std::ranges::find(local_systems, prefix) == local_systems.end()) {
-            VSIFileManager::InstallHandler(prefixes[i],
-                                           new Guarded(VSIFileManager::GetHandler(prefixes[i]), is_reachable));
+            VSIFileManager::InstallHandler(
+                prefixes[i], new GuardedFileSystem(VSIFileManager::GetHandler(prefixes[i]), is_reachable));
         }
     }
-    VSIFileManager::InstallHandler("", new Guarded(VSIFileManager::GetHandler(""), is_near, is_no_pipe));
+    VSIFileManager::InstallHandler("", new GuardedFileSystem(VSIFileManager::GetHandler(""), is_near, is_no_pipe));
 }
 
 void set_unless_set(char const* option, char const* value) {
@@ -465,7 +466,7 @@ Connection::~Connection() {
     }
 }
 
-Confined::Confined(std::string const& path) : thread_(std::this_thread::get_id()) {
+ConfinedFolder::ConfinedFolder(std::string const& path) : thread_(std::this_thread::get_id()) {
     std::error_code ignored;
     fs::path const file = fs::absolute(path, ignored);
     fs::path const real = real_path(file);
@@ -477,7 +478,7 @@ Confined::Confined(std::string const& path) : thread_(std::this_thread::get_id()
     folders.insert(folders.end(), {near_, real_});
 }
 
-Confined::~Confined() {
+ConfinedFolder::~ConfinedFolder() {
     std::lock_guard const lock(roots().mutex);
     std::vector<std::string>& folders = roots().folders[thread_];
     for (std::string const& folder : {near_, real_}) {

@@ -10,6 +10,7 @@ struct pj_ctx; // PROJ's PJ_CONTEXT
 
 namespace thalweg::io {
 
+/// \internal
 /// Tells whether a name makes GDAL connect to a server: a database (PG:, postgresql:) or a file behind an address
 /// (/vsicurl/, /vsis3/, ...). /vsistdin/ counts as one.
 /// \param path a file's path or a connection
@@ -43,10 +44,12 @@ struct Source {
     std::string shown = {}; ///< the file that the user named, if this is a copy of it; "": none
 };
 
+/// \internal
 /// \param source the source
 /// \throws BadInput where a recipe names a connection, or what is neither a file nor a folder
 void require_allowed(Source const& source);
 
+/// \internal
 /// Tells whether a recipe may name a source.
 /// \param path of the source
 /// \return true: it may
@@ -58,6 +61,7 @@ void share_gdal();
 
 // Files that PROJ may open.
 
+/// \internal
 /// Restricts a context of PROJ: from now on it reads files in PROJ's own folders only (projinfo --searchpaths) and
 /// writes none, whatever the name of a grid is.
 /// \param context of PROJ

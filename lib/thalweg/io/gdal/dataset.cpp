@@ -240,12 +240,12 @@ bool is_postgres(std::string const& path) {
 }
 
 // Resources that a data set needs as long as it is open, in this order.
-struct Held {
+struct HeldResources {
     std::unique_ptr<Connection const> connection = {};
     std::unique_ptr<UnchangedFile const> file = {};
     std::unique_ptr<WithNetcdf const> netcdf = {};
-    std::unique_ptr<Confined const> folder = {};
-    std::unique_ptr<Confined const> folder_of_copy = {};
+    std::unique_ptr<ConfinedFolder const> folder = {};
+    std::unique_ptr<ConfinedFolder const> folder_of_copy = {};
 };
 
 struct DriverOption {
@@ -279,8 +279,8 @@ CPLStringList open_options(std::string const& path, unsigned kinds, char const* 
 }
 
 // shown: the name in messages.
-Dataset opened(std::string const& path, unsigned kinds, char const* const* drivers, std::shared_ptr<Held const> held,
-               std::string const& shown) {
+Dataset opened(std::string const& path, unsigned kinds, char const* const* drivers,
+               std::shared_ptr<HeldResources const> held, std::string const& shown) {
     take_refusal();
     CPLStringList const options = open_options(path, kinds, drivers, held->file ? held->file->options() : nullptr);
     CPLConfigOptionSetter const heights("GPX_ELE_AS_25D", "YES", true); // before GDAL 3.8
@@ -292,7 +292,7 @@ Dataset opened(std::string const& path, unsigned kinds, char const* const* drive
 }
 
 Dataset open_connection(std::string const& path, unsigned kinds) {
-    auto held = std::make_shared<Held>();
+    auto held = std::make_shared<HeldResources>();
     held->connection = std::make_unique<Connection const>();
     std::vector<char const*> const files = recipe_drivers();
     return opened(path, kinds, is_postgres(path) ? databases.data() : files.data(), held, path);
@@ -300,10 +300,10 @@ Dataset open_connection(std::string const& path, unsigned kinds) {
 
 Dataset open_recipe_file(std::string const& path, unsigned kinds) {
     require_allowed({path, Access::recipe});
-    auto held = std::make_shared<Held>();
+    auto held = std::make_shared<HeldResources>();
     held->file = std::make_unique<UnchangedFile const>(path);
-    held->folder = std::make_unique<Confined const>(path);
-    held->folder_of_copy = std::make_unique<Confined const>(held->file->path());
+    held->folder = std::make_unique<ConfinedFolder const>(path);
+    held->folder_of_copy = std::make_unique<ConfinedFolder const>(held->file->path());
     std::string const name = inside_archive(held->file->path());
     std::vector<char const*> const drivers = recipe_drivers();
     Dataset data = opened(name, kinds, drivers.data(), held, path);
@@ -376,14 +376,14 @@ Dataset open_unchanged(Source const& source, unsigned kinds) {
     if (names_connection(path)) {
         return open_connection(path, kinds);
     }
-    auto held = std::make_shared<Held>();
+    auto held = std::make_shared<HeldResources>();
     held->file = std::make_unique<UnchangedFile const>(path);
     held->netcdf = std::make_unique<WithNetcdf const>(path);
     std::string const name = inside_archive(held->file->path());
     bool const is_disguised = is_virtual_in_disguise(name, path);
     if (is_disguised) { // who names a picture does not expect to read files elsewhere
-        held->folder = std::make_unique<Confined const>(path);
-        held->folder_of_copy = std::make_unique<Confined const>(held->file->path());
+        held->folder = std::make_unique<ConfinedFolder const>(path);
+        held->folder_of_copy = std::make_unique<ConfinedFolder const>(held->file->path());
     }
     require_honest_sources(name, path, is_disguised);
     if (held->netcdf->is_meant()) {

@@ -21,7 +21,7 @@ namespace thalweg::io {
 
 namespace {
 
-struct Kept {
+struct KeptErrors {
     std::vector<std::string> errors; // the first few: a corrupt file can cause one per tile
     bool is_cut = false;             // memory was insufficient for more
 };
@@ -44,7 +44,7 @@ void CPL_STDCALL note(CPLErr level, CPLErrorNum, char const* text) noexcept {
     if (level < CE_Failure) {
         return;
     }
-    auto& [errors, is_cut] = *static_cast<Kept*>(CPLGetErrorHandlerUserData());
+    auto& [errors, is_cut] = *static_cast<KeptErrors*>(CPLGetErrorHandlerUserData());
     try {
         if (errors.size() < errors_kept && std::ranges::find(errors, text) == errors.end()) {
             errors.emplace_back(text);
@@ -62,7 +62,7 @@ void CPL_STDCALL note_elsewhere(CPLErr level, CPLErrorNum number, char const* te
 
 } // namespace
 
-struct Driver::Log : Kept {};
+struct Driver::Log : KeptErrors {};
 
 Driver::Driver() : log_(std::make_unique<Log>()) {
     // Not call_once: an exception (out of memory) would cross C frames.
@@ -76,7 +76,7 @@ Driver::Driver() : log_(std::make_unique<Log>()) {
         return true;
     }();
     enter_gdal();
-    CPLPushErrorHandlerEx(note, static_cast<Kept*>(log_.get()));
+    CPLPushErrorHandlerEx(note, static_cast<KeptErrors*>(log_.get()));
 }
 
 Driver::~Driver() {

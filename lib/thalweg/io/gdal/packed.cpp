@@ -20,7 +20,7 @@ constexpr int level = 6;
 constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
 constexpr std::size_t piece = 3 << 20; // a multiple of three: base64 pads only at its end
 
-struct Freed {
+struct VsiFree {
     void operator()(void* memory) const { VSIFree(memory); }
 };
 
@@ -30,7 +30,7 @@ std::string base64(std::span<std::uint8_t const> bytes) {
     std::string text;
     text.reserve((bytes.size() + 2) / 3 * 4);
     for (std::size_t at = 0; at < bytes.size(); at += piece) {
-        std::unique_ptr<char, Freed> const part(
+        std::unique_ptr<char, VsiFree> const part(
             CPLBase64Encode(static_cast<int>(std::min(piece, bytes.size() - at)), bytes.data() + at));
         refuse_if<IoError>(part == nullptr, "io.base64: out of memory");
         text += part.get();
@@ -45,7 +45,7 @@ std::string packed(std::span<std::uint8_t const> bytes) {
     Driver const driver;
     std::uint8_t const none = 0;
     std::size_t size = 0;
-    std::unique_ptr<void, Freed> const stream(
+    std::unique_ptr<void, VsiFree> const stream(
         CPLZLibDeflate(bytes.empty() ? &none : bytes.data(), bytes.size(), level, nullptr, 0, &size));
     if (stream == nullptr) {
         driver.check(what);

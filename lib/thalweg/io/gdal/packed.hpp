@@ -8,6 +8,7 @@
 
 namespace thalweg::io {
 
+/// \internal
 /// Encodes bytes for embedding in text.
 /// \param bytes any
 /// \return letters, digits, + and /, padded with =, without line breaks
@@ -16,6 +17,7 @@ namespace thalweg::io {
 /// Source: RFC 4648.
 std::string base64(std::span<std::uint8_t const> bytes);
 
+/// \internal
 /// Compresses bytes to base64 of a zlib stream, for embedding in text.
 /// \param bytes any
 /// \return letters, digits, + and /, padded with =, without line breaks. The bytes of the stream depend on the zlib or

@@ -77,11 +77,13 @@ struct ReadPointsParams {
 /// Source: ASPRS, LAS specification version 1.4-R15.
 FeaturePoints read_points(ReadPointsParams const& params, Run const& run = {});
 
+/// \internal
 /// Tells whether a path's extension is that of text with points.
 /// \param path of the file
 /// \return true: .csv, .txt or .xyz
 bool is_text_of_points(std::string const& path);
 
+/// \internal
 /// Tells whether a file begins as a point cloud does, or is named as one.
 /// \param path of the file
 /// \return true: LAS, LAZ (COPC too) or E57, which read_points() refuses with what to do

@@ -21,6 +21,7 @@ struct TinFile {
     std::vector<Finding> findings = {};
 };
 
+/// \internal
 /// Tells whether a file name has the extension of a mesh that read_tin reads: .2dm, .obj, .off or .glb.
 /// \param path of the file
 /// \return true: a mesh

@@ -123,10 +123,10 @@ std::vector<std::string> short_user_names(std::vector<std::string> const& names,
 
 /// The divergences of a forest. A minor branch begins in a node of its own, without inflow, at the place of the node
 /// that its main branch leaves.
-class Divided {
+class Divergences {
 public:
     /// \param has_any whether nodes at one place count as divergences
-    Divided(StreamNetwork const& plan, bool has_any, NetworkTables const& tables)
+    Divergences(StreamNetwork const& plan, bool has_any, NetworkTables const& tables)
         : plan_(plan), start_(plan.from()), minor_(plan.node_count()) {
         if (has_any) {
             find();
@@ -446,7 +446,7 @@ private:
     std::vector<ArcId> outlet_;        ///< the arc at the outlet
     std::vector<double> length_up_m_;  ///< of all arcs upstream and its own
     std::vector<double> longest_up_m_; ///< of the longest path from a source, its own length included
-    Divided divided_;
+    Divergences divided_;
 };
 
 /// The name of a field, or its first other one that fits into a shapefile.

@@ -64,11 +64,13 @@ struct ReadRiversParams {
 /// OpenStreetMap and of networks say which line is downstream, which channel is a minor one and how great a river is.
 /// Features without a line of some length (null, empty, points that are all one) are left out, shapes that are not
 /// lines are skipped: findings. Heights may come from fields of a line's ends. has_z: every vertex has a height, and
-/// not all are the same (files that fill Z with 0 have none). \return the lines \throws BadParameter one of id_field
-/// and down_field without the other, or of from_field and to_field \throws BadInput naming file, layer and feature:
-/// missing file, layer or named field, no or several line layers, no features, no CRS, coordinates that are not finite
-/// or cannot be reprojected, nothing left, a lambda that is not a whole number from 1 to 50 \throws IoError when the
-/// file cannot be read to its end
+/// not all are the same (files that fill Z with 0 have none).
+/// \return the lines
+/// \throws BadParameter one of id_field and down_field without the other, or of from_field and to_field
+/// \throws BadInput naming file, layer and feature: missing file, layer or named field, no or several line layers, no
+/// features, no CRS, coordinates that are not finite or cannot be reprojected, nothing left, a lambda that is not a
+/// whole number from 1 to 50
+/// \throws IoError when the file cannot be read to its end
 RiverLines read_rivers(ReadRiversParams const& params, Run const& run = {});
 
 } // namespace thalweg::io

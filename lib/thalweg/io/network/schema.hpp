@@ -144,12 +144,15 @@ struct DataSet {
 /// All data sets whose columns are known; of two that a layer is of the first counts.
 std::span<DataSet const> all_data_sets();
 
+/// \internal
 SchemaTable const& table_of(Schema schema);
+/// \internal
 std::span<SchemaTable const> all_schemas();
 /// \param name its name
 /// \return "native, taudem, ..." are the names.
 /// \throws BadInput with a suggestion when it is none
 Schema schema_named(std::string const& name);
+/// \internal
 /// \param table the table
 /// \param quantity the quantity
 /// \return the field of a quantity; null when the schema has none.

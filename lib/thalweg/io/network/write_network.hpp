@@ -78,6 +78,7 @@ struct ShortenedName {
     std::string name;
     std::string in_shapefile;
 };
+/// \internal
 std::vector<ShortenedName> shortened_names(NetworkTables const& tables, Schema schema = Schema::native);
 
 /// How a network is written.

@@ -53,8 +53,9 @@ void write_heightmap(Raster<float> const& heights, std::string const& path, Heig
 HeightmapScale heightmap_scale(Raster<float> const& heights);
 
 /// Tells whether a file is a heightmap that read_dem_file() reads and GDAL does not, or with other heights than GDAL:
-/// one with its description beside it, OpenEXR, or numbers without a header. \param path of the file \return true: it
-/// is one
+/// one with its description beside it, OpenEXR, or numbers without a header.
+/// \param path of the file
+/// \return true: it is one
 bool is_heightmap_file(std::string const& path);
 
 /// Writes shares as a new grey PNG: 0 is black, 1 white.

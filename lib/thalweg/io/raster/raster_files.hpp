@@ -61,14 +61,16 @@ struct DemFile {
 /// No-data, masked and transparent cells become NaN, and so do cells that are NaN themselves, with a finding. Rows from
 /// south to north, columns from east to west, and rows that are columns of the map, are read the other way. crs may be
 /// geographic or "" here; cell_m is in its unit. A raster without position has cells of 1 and its south-west corner at
-/// 0; one in a site's own system has metres and no CRS. \param source the file, or GDAL's name of one of its variables
-/// \return the raster, with findings \throws BadInput no such file, not a raster, several bands or variables of which
-/// none is clearly that of heights, a picture in colours, cells not square (their sides differ by more than 0.1 %, or
-/// over the raster by a tenth of a cell; says which sizes), rotated, larger than memory, longitudes and latitudes
-/// without a CRS, latitudes beyond a pole, a geocentric CRS, no heights at all, a height beyond 1e30 (a damaged tile),
-/// values that no terrain has and the file does not declare as no-data: -9999, -32767, -32768, -99999, 1.18e-38, of
-/// heights also 32767 m and 65535 m; where it declares none and the cells are heights, also the lowest or highest value
-/// when it fills 3 x 3 cells and lies farther from the next one than the others are apart (of 0: more than 300 m)
+/// 0; one in a site's own system has metres and no CRS.
+/// \param source the file, or GDAL's name of one of its variables
+/// \return the raster, with findings
+/// \throws BadInput no such file, not a raster, several bands or variables of which none is clearly that of heights, a
+/// picture in colours, cells not square (their sides differ by more than 0.1 %, or over the raster by a tenth of a
+/// cell; says which sizes), rotated, larger than memory, longitudes and latitudes without a CRS, latitudes beyond a
+/// pole, a geocentric CRS, no heights at all, a height beyond 1e30 (a damaged tile), values that no terrain has and the
+/// file does not declare as no-data: -9999, -32767, -32768, -99999, 1.18e-38, of heights also 32767 m and 65535 m;
+/// where it declares none and the cells are heights, also the lowest or highest value when it fills 3 x 3 cells and
+/// lies farther from the next one than the others are apart (of 0: more than 300 m)
 DemFile read_dem_file(Source const& source, ReadDemParams const& params = {}, Run const& run = {});
 
 /// \param source the file

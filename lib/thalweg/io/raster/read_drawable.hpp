@@ -53,8 +53,10 @@ struct Drawable {
 /// is geographic or not in metres, or whose lengths are wrong by more than 1 % (Web Mercator), is warped (bilinear) to
 /// the UTM zone of its centre, or, if wider than 12 degrees, near a pole or not on the Earth, to an equal-area
 /// projection centred on it; cells that are not square or rotated become north-up squares; without a CRS coordinates
-/// count as metres. Values are those of read_dem_file. \param file the file \return with one finding per change; NaN:
-/// no data \throws BadInput as read_dem_file, but for the shape of cells; for a position without a projection
+/// count as metres. Values are those of read_dem_file.
+/// \param file the file
+/// \return with one finding per change; NaN: no data
+/// \throws BadInput as read_dem_file, but for the shape of cells; for a position without a projection
 Drawable read_drawable(Source const& file, ReadDrawableParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::io

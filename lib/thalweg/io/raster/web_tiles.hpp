@@ -42,6 +42,7 @@ struct WebTileRange {
     std::int64_t south = 0;
 };
 
+/// \internal
 /// Lays out the tiles of a grid.
 /// \param grid at least one cell
 /// \return max_zoom is full_zoom or what the limits leave, and no less than min_zoom
@@ -49,6 +50,7 @@ struct WebTileRange {
 /// invalid
 WebPyramid web_pyramid(Grid const& grid, WebPyramidParams const& params = {});
 
+/// \internal
 /// \param pyramid any
 /// \param zoom [0, 30]
 /// \return the tiles of the level
@@ -61,6 +63,7 @@ struct WebGround {
     std::string const& picture;   ///< PNG whose corners are the centres of the grid's corner cells
 };
 
+/// \internal
 /// Writes heights/ZOOM/COLUMN/ROW.png (256 x 256 samples, RGB: -10000 m + 0.1 m x (65536 R + 256 G + B)) and
 /// colour/ZOOM/COLUMN/ROW.png (512 x 512, RGBA). Samples are bilinear at the level full_zoom and means of four above
 /// it; all tiles of a level belong to one lattice of samples. Beyond the outermost centres of cells heights are those
@@ -78,6 +81,7 @@ struct WebGround {
 std::vector<std::string> write_web_tiles(WebGround const& ground, WebPyramid const& pyramid, OutputFolder const& out,
                                          Run const& run = {});
 
+/// \internal
 /// Turns lines into longitudes and latitudes (WGS 84).
 /// \param lines [m] in the CRS of the grid that the pyramid was made of
 /// \param pyramid of the grid

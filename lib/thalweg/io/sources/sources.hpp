@@ -33,6 +33,7 @@ FileContent content_of(Source const& source);
 /// \throws BadInput when GDAL cannot read it
 bool has_layer(Source const& source, std::string const& layer);
 
+/// \internal
 /// A GeoPackage that is open elsewhere has its NAME-wal too, where changes stand. A database has none.
 /// \param source the file
 /// \return every file a vector or raster source consists of, as GDAL knows them (.shp with its .dbf, .prj, ...),
@@ -40,6 +41,7 @@ bool has_layer(Source const& source, std::string const& layer);
 /// \throws BadInput when it is none
 std::vector<std::string> dataset_files(Source const& source);
 
+/// \internal
 /// Text, and a file that GDAL does not read, change in nothing.
 /// \param source the file
 /// \param layer "" for the one with rivers, or the first
@@ -51,6 +53,7 @@ std::vector<std::string> dataset_files(Source const& source);
 std::vector<std::string> conversions_of(Source const& source, std::string const& layer, std::string const& crs,
                                         std::string const& source_crs = {});
 
+/// \internal
 /// Copies a source into a file that a recipe may name: layers into a GeoPackage, a raster into a GeoTIFF.
 /// \param source any source that GDAL reads, databases and addresses included
 /// \param layer the only one to copy; "": all

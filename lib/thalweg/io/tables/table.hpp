@@ -44,6 +44,7 @@ struct Table {
     std::string style = {}; ///< by which QGIS draws it (QgisStyle), a default of the GeoPackage; "": none
 };
 
+/// \internal
 /// Writes tables as the layers of a new GeoPackage, those without shape as attribute tables.
 /// \post the same bytes for the same tables.
 /// \param tables the values of the tables

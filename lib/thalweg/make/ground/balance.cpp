@@ -272,10 +272,11 @@ double correlation_of(Raster<float> const& dem, recipe::LikeDem const& like, Run
 }
 
 /// Solves, and again with another roughness until gradients are correlated as in the DEM of surface.like.
-Solved with_texture(recipe::LikeDem const& like, surface::EquilibriumParams params,
-                    std::function<Solved(surface::EquilibriumParams const&)> const& solve, Run const& run) {
+SolvedEquilibrium match_like(recipe::LikeDem const& like, surface::EquilibriumParams params,
+                             std::function<SolvedEquilibrium(surface::EquilibriumParams const&)> const& solve,
+                             Run const& run) {
     constexpr double worth_a_word = 0.03;
-    Solved solved = solve(params);
+    SolvedEquilibrium solved = solve(params);
     LikeStatistics met{like.mean_slope_deg, like.correlation, like.lag_m, params.roughness, std::nan("")};
     if (std::isnan(like.correlation) || params.roughness != surface::EquilibriumParams{}.roughness) {
         solved.told.like = met;
@@ -312,8 +313,8 @@ Solved with_texture(recipe::LikeDem const& like, surface::EquilibriumParams para
 }
 
 /// Solves for the land.
-Solved solved_for(GroundInput const& in, Balance const& balance, Channels const& channels, StageLog& stage_log,
-                  Run const& run) {
+SolvedEquilibrium solved_for(GroundInput const& in, Balance const& balance, Channels const& channels,
+                             StageLog& stage_log, Run const& run) {
     surface::EquilibriumFields const fields = equilibrium_fields(in, channels, run);
     run.at(0.0, fmt::format("fill {} cells", in.grid.cells()).c_str());
     surface::EquilibriumParams const params = params_of(in.recipe, in.like, edge_of(in, fields.land, channels));
@@ -324,15 +325,15 @@ Solved solved_for(GroundInput const& in, Balance const& balance, Channels const&
                         .key = "surface.edge"});
     }
     auto const solve = [&](surface::EquilibriumParams const& with) { return balance.solve(channels, fields, with); };
-    Solved solved = stage_log.stage(recipe::stage::fill_in_equilibrium.name, [&] {
-        return in.like ? with_texture(*in.like, params, solve, run) : solve(params);
+    SolvedEquilibrium solved = stage_log.stage(recipe::stage::fill_in_equilibrium.name, [&] {
+        return in.like ? match_like(*in.like, params, solve, run) : solve(params);
     });
     stage_log.find(solved.findings);
     return solved;
 }
 
 /// How the surface was made.
-HowMade how_of(Solved solved, Balance const& balance, std::int64_t channel_cells) {
+HowMade how_of(SolvedEquilibrium solved, Balance const& balance, std::int64_t channel_cells) {
     surface::EquilibriumTerrain& land = solved.land;
     Rebuilt how = std::move(solved.told);
     how.edge = solved.params.edge;
@@ -387,7 +388,7 @@ Valley valley_of(Channels const& channels, Raster<float> const& dem) {
 }
 
 /// Checks of what the recipe asks of the surface, and warnings.
-std::vector<Check> checks_of(GroundInput const& in, Solved const& solved, Balance const& balance,
+std::vector<Check> checks_of(GroundInput const& in, SolvedEquilibrium const& solved, Balance const& balance,
                              Channels const& channels, bool by_levels, StageLog& stage_log, Run const& run) {
     surface::EquilibriumTerrain const& land = solved.land;
     std::vector<Check> checks = target_checks(land, solved.params, by_levels, stage_log);
@@ -426,16 +427,16 @@ Surface balanced(GroundInput const& in, Balance const& balance, Run const& run) 
     Surface made;
     made.bed.heights = in.rivers.statistics;
     made.bed.lakes = std::ssize(flooded.lakes);
-    Solved solved = solved_for(in, balance, flooded.rivers.channels, stage_log, run);
+    SolvedEquilibrium solved = solved_for(in, balance, flooded.rivers.channels, stage_log, run);
     if (flooded.by_levels) {
         stage_log.find(network::missed_levels(flooded.rivers.channels, flooded.lakes, solved.land.dem));
     }
     rivers = std::move(flooded.rivers);
     std::int64_t const channel_cells = std::ssize(rivers.channels.cell);
     made.notes.checks = checks_of(in, solved, balance, rivers.channels, flooded.by_levels, stage_log, run);
-    Typed typed{in.planform.network, in.planform.types};
+    TypedNetwork typed{in.planform.network, in.planform.types};
     if (!solved.land.shortened.empty()) {
-        network::Shortened shortened = network::shorten(in.planform.network, rivers, solved.land.shortened);
+        network::ShortenedChannels shortened = network::shorten(in.planform.network, rivers, solved.land.shortened);
         stage_log.find(shortened.notes);
         rivers = std::move(shortened.drawn);
         typed = type_rivers(std::move(shortened.network), wanted, run);

@@ -30,8 +30,8 @@ std::vector<Vec3> in_space(std::vector<Vec2> const& line, std::vector<double> co
 }
 
 /// Random points between the rivers.
-skeleton::Scattered scattered(recipe::Recipe const& recipe, Valley const& valley, Mask const& inside,
-                              StageLog& stage_log, Run const& run) {
+skeleton::ScatteredPoints scattered(recipe::Recipe const& recipe, Valley const& valley, Mask const& inside,
+                                    StageLog& stage_log, Run const& run) {
     recipe::SkeletonRecipe const& wanted = *recipe.skeleton;
     skeleton::ScatterBetweenParams params;
     params.seed = recipe.seed;
@@ -40,7 +40,7 @@ skeleton::Scattered scattered(recipe::Recipe const& recipe, Valley const& valley
     params.gain = wanted.ridge_gain;
     params.farthest_m = wanted.ridge_farthest_m;
     params.law = wanted.law;
-    skeleton::Scattered points = stage_log.stage(
+    skeleton::ScatteredPoints points = stage_log.stage(
         recipe::stage::scatter.name, [&] { return skeleton::scatter_between(valley, inside, params, run); });
     stage_log.say(fmt::format("{} points", points.points.points.size()));
     return points;
@@ -129,7 +129,8 @@ Raster<float> only_inside(Raster<float> dem, Mask const& inside) {
     return dem;
 }
 
-Check points_missing(skeleton::Scattered const& points, recipe::SkeletonRecipe const& wanted, StageLog& stage_log) {
+Check points_missing(skeleton::ScatteredPoints const& points, recipe::SkeletonRecipe const& wanted,
+                     StageLog& stage_log) {
     if (points.density > skeleton::darts_density) {
         stage_log.find({.kind = "close_points",
                         .amount = points.density,
@@ -157,7 +158,7 @@ Between between_rivers(GroundInput const& in, StageLog& stage_log, Run const& ru
     between.inside = inside_of(recipe, in.planform.land, between.valley, run);
     between.is_whole = recipe.surface->mask.empty() && in.planform.land.values().empty();
     if (recipe::stage::scatter.runs(recipe)) {
-        skeleton::Scattered found = scattered(recipe, between.valley, between.inside, stage_log, run);
+        skeleton::ScatteredPoints found = scattered(recipe, between.valley, between.inside, stage_log, run);
         between.checks.push_back(points_missing(found, *recipe.skeleton, stage_log));
         between.points = std::move(found.points);
     }

@@ -32,14 +32,14 @@ Skeleton gathered_skeleton(recipe::Recipe const& recipe, Between const& between,
 Surface diffuse(GroundInput const& in, Run const& run) {
     StageLog stage_log(run);
     Between between = between_rivers(in, stage_log, run);
-    surface::Diffused made = stage_log.stage(recipe::stage::fill.name, [&] {
+    surface::DiffusedDem made = stage_log.stage(recipe::stage::fill.name, [&] {
         surface::DiffuseParams params = in.recipe.surface->diffuse;
         params.seed = in.recipe.seed;
         params.tolerance = in.recipe.surface->tolerance.value_or(params.tolerance);
         return surface::diffuse(gathered_skeleton(in.recipe, between, run), between.inside, params, run);
     });
     stage_log.say(fmt::format("{}x{}, diffused, {} iterations", in.grid.width, in.grid.height, made.iterations));
-    return surface_between(in, std::move(between), std::move(made.dem), Diffused{made.iterations, made.residual}, {},
+    return surface_between(in, std::move(between), std::move(made.dem), ByDiffusion{made.iterations, made.residual}, {},
                            stage_log);
 }
 

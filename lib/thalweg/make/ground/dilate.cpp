@@ -57,7 +57,7 @@ Raster<float> through_points(Raster<float> dem, Between const& between, Run cons
     return surface::through_heights(std::move(dem), rivers, cells, run);
 }
 
-surface::Dilated dilated_on(recipe::SurfaceRecipe const& wanted, Between const& between, Run const& run) {
+surface::DilatedDem dilated_on(recipe::SurfaceRecipe const& wanted, Between const& between, Run const& run) {
     Valley const& valley = between.valley;
     if (wanted.base == recipe::Base::paper) { // without a mask by the closed form
         return between.is_whole ? surface::dilate(valley, wanted.dilate, run)
@@ -72,7 +72,7 @@ surface::Dilated dilated_on(recipe::SurfaceRecipe const& wanted, Between const& 
                             : surface::dilate_over(valley, base, between.inside, wanted.dilate, run);
 }
 
-surface::Dilated dilated(recipe::SurfaceRecipe const& wanted, Between const& between, Run const& run) {
+surface::DilatedDem dilated(recipe::SurfaceRecipe const& wanted, Between const& between, Run const& run) {
     try {
         return dilated_on(wanted, between, run);
     } catch (BadParameter const& fault) { // how many levels there are is known only now
@@ -97,8 +97,8 @@ Surface dilate(GroundInput const& in, Run const& run) {
     StageLog stage_log(run);
     Between between = between_rivers(in, stage_log, run);
     recipe::SurfaceRecipe const& wanted = *in.recipe.surface;
-    surface::Dilated made = stage_log.stage(recipe::stage::fill_dilated.name, [&] {
-        surface::Dilated rising = dilated(wanted, between, run);
+    surface::DilatedDem made = stage_log.stage(recipe::stage::fill_dilated.name, [&] {
+        surface::DilatedDem rising = dilated(wanted, between, run);
         rising.dem = through_points(std::move(rising.dem), between, run);
         return rising;
     });
@@ -107,7 +107,7 @@ Surface dilate(GroundInput const& in, Run const& run) {
     warn_of_jumps(made.levels, wanted.dilate.increment, stage_log);
     std::vector<Check> const checks = relief_checks(wanted.dilate.relief_m, made.rise_m);
     return surface_between(in, std::move(between), std::move(made.dem),
-                           Dilated{std::move(made.increments), made.levels, made.rise_m, made.flat_share}, checks,
+                           ByDilation{std::move(made.increments), made.levels, made.rise_m, made.flat_share}, checks,
                            stage_log);
 }
 

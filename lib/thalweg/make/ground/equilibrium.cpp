@@ -9,7 +9,7 @@ namespace thalweg::make {
 Surface equilibrium(GroundInput const& in, Run const& run) {
     auto const solve = [&](Channels const& channels, surface::EquilibriumFields const& fields,
                            surface::EquilibriumParams const& params) {
-        return Solved{surface::equilibrium(channels, fields, params, run), params};
+        return SolvedEquilibrium{surface::equilibrium(channels, fields, params, run), params};
     };
     return balanced(in, {.solve = solve}, run);
 }

@@ -11,9 +11,9 @@ Equilibrium const* Ground::equilibrium() const {
     return rebuilt != nullptr ? rebuilt : std::get_if<Equilibrium>(&how);
 }
 
-Dilated const& Ground::dilated() const {
-    static Dilated const not_dilated;
-    auto const* const found = std::get_if<Dilated>(&how);
+ByDilation const& Ground::dilated() const {
+    static ByDilation const not_dilated;
+    auto const* const found = std::get_if<ByDilation>(&how);
     return found != nullptr ? *found : not_dilated;
 }
 

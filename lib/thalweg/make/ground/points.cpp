@@ -28,8 +28,8 @@ recipe::SurfaceRecipe surface_of_points() {
 }
 
 /// The points of the terrain: from the file, or random with the extremes among them.
-skeleton::Scattered points_of(recipe::Recipe const& recipe, Grid const& grid, FeaturePoints const& given,
-                              Run const& run) {
+skeleton::ScatteredPoints points_of(recipe::Recipe const& recipe, Grid const& grid, FeaturePoints const& given,
+                                    Run const& run) {
     if (!recipe.skeleton || recipe.skeleton->scatter == 0) {
         return {.points = given};
     }
@@ -75,16 +75,16 @@ Ground land_of_points(recipe::Recipe const& recipe, double cell_m, FeaturePoints
                                                 regression.rank, regression.terms),
                             .key = "surface.method"});
         }
-        return {.dem = std::move(regression.surface), .how = Regressed{}};
+        return {.dem = std::move(regression.surface), .how = ByRegression{}};
     }
     if (wanted.method == recipe::Method::diffuse) {
         Valley const no_rivers{Raster<float>(grid, std::numeric_limits<float>::quiet_NaN())};
         surface::DiffuseParams params = wanted.diffuse;
         params.seed = recipe.seed;
         params.tolerance = wanted.tolerance.value_or(params.tolerance);
-        surface::Diffused land =
+        surface::DiffusedDem land =
             surface::diffuse(skeleton::draw_skeleton(no_rivers, {}, points, {}, run).skeleton, params, run);
-        return {.dem = std::move(land.dem), .how = Diffused{land.iterations, land.residual}};
+        return {.dem = std::move(land.dem), .how = ByDiffusion{land.iterations, land.residual}};
     }
     Tin tin = geometry::triangulate(points.points, {}, run).tin;
     bool const natural = wanted.interpolation == recipe::Interpolation::natural;
@@ -99,7 +99,7 @@ Ground land_of_points(recipe::Recipe const& recipe, double cell_m, FeaturePoints
 
 Surface points(GroundInput const& in, Run const& run) {
     StageLog stage_log(run);
-    skeleton::Scattered const through = points_of(in.recipe, in.fine, in.points, run);
+    skeleton::ScatteredPoints const through = points_of(in.recipe, in.fine, in.points, run);
     Surface made;
     if (in.recipe.skeleton && in.recipe.skeleton->scatter > 0) {
         made.notes.checks.push_back(points_missing(through, *in.recipe.skeleton, stage_log));

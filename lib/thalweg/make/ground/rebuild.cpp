@@ -32,8 +32,8 @@ surface::RebuildParams rebuild_params_of(recipe::EquilibriumRecipe const& wanted
     return params;
 }
 
-Solved rebuilt(recipe::EquilibriumRecipe const& wanted, Channels const& channels,
-               surface::EquilibriumFields const& fields, surface::EquilibriumParams params, Run const& run) {
+SolvedEquilibrium rebuilt(recipe::EquilibriumRecipe const& wanted, Channels const& channels,
+                          surface::EquilibriumFields const& fields, surface::EquilibriumParams params, Run const& run) {
     params.edge = params.edge == surface::Edge::open ? surface::Edge::closed : params.edge;
     surface::RebuiltTerrain made = surface::rebuild(channels, fields, rebuild_params_of(wanted, params), run);
     return {.land = std::move(made.terrain),

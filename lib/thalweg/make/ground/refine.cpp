@@ -172,24 +172,24 @@ std::vector<Check> residual_checks(fractal::MatchedDem const& projection) {
 }
 
 /// A DEM with fractal detail, and how that was made.
-struct Detailed {
+struct DetailedDem {
     DetailStatistics statistics;
     Raster<float> dem;
 };
 
-Detailed displaced(fractal::MidpointParams params, std::uint64_t seed, Raster<float> const& coarse, Grid const& grid,
-                   Run const& run) {
+DetailedDem displaced(fractal::MidpointParams params, std::uint64_t seed, Raster<float> const& coarse, Grid const& grid,
+                      Run const& run) {
     params.width = grid.width;
     params.height = grid.height;
     params.seed = seed;
-    fractal::Displaced const made = fractal::midpoint(coarse, params, run);
+    fractal::DisplacedDem const made = fractal::midpoint(coarse, params, run);
     Raster<float> land(grid); // the exact frame, not one computed back from the coarse cells
     std::copy(made.dem.values().begin(), made.dem.values().end(), land.values().begin());
     return {{made.hurst, made.sigma}, std::move(land)};
 }
 
 /// The detail of a recipe on a plain.
-Detailed detail_alone(recipe::Recipe const& recipe, Grid const& grid, Run const& run) {
+DetailedDem detail_alone(recipe::Recipe const& recipe, Grid const& grid, Run const& run) {
     fractal::MidpointParams wanted = recipe.detail->midpoint;
     wanted.hurst = wanted.hurst.value_or(3.0 - default_dimension);
     Raster<float> const flat(recipe::coarse_grid(grid, recipe::levels_of(recipe)), 0.0F);
@@ -197,9 +197,9 @@ Detailed detail_alone(recipe::Recipe const& recipe, Grid const& grid, Run const&
 }
 
 /// Adds fractal detail: none in the valleys, all of it some cells away.
-Detailed beside_rivers(recipe::Recipe const& recipe, Raster<float> dem, Valley const& valley, Run const& run) {
+DetailedDem beside_rivers(recipe::Recipe const& recipe, Raster<float> dem, Valley const& valley, Run const& run) {
     constexpr double near_cells = 8.0; // within which detail grows from nothing to two thirds
-    Detailed const detail = detail_alone(recipe, dem.grid(), run);
+    DetailedDem const detail = detail_alone(recipe, dem.grid(), run);
     Raster<float> result = std::move(dem);
     surface::Expansion const expansion = surface::expand(valley, run);
     for (std::int64_t i = 0; i < result.cells(); ++i) {
@@ -256,11 +256,11 @@ Surface refined(Surface surface, GroundInput const& in, Run const& run) {
     int const levels = recipe::levels_of(in.recipe);
     Raster<float>& dem = surface.ground.dem;
     if (levels > 0 && in.recipe.network) {
-        Detailed made = beside_rivers(in.recipe, std::move(dem), surface.bed.valley, run);
+        DetailedDem made = beside_rivers(in.recipe, std::move(dem), surface.bed.valley, run);
         dem = std::move(made.dem);
         surface.ground.detail = made.statistics;
     } else if (levels > 0) {
-        Detailed made = stage_log.stage(recipe::stage::detail.name, [&] {
+        DetailedDem made = stage_log.stage(recipe::stage::detail.name, [&] {
             return displaced(in.recipe.detail->midpoint, in.recipe.seed, dem, in.fine, run);
         });
         dem = std::move(made.dem);

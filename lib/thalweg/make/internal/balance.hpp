@@ -16,7 +16,7 @@
 namespace thalweg::make {
 
 /// A terrain in equilibrium.
-struct Solved {
+struct SolvedEquilibrium {
     surface::EquilibriumTerrain land;
     surface::EquilibriumParams params = {}; ///< with which it was solved for
     Rebuilt told = {};                      ///< by rivers with heights of a file
@@ -27,8 +27,8 @@ struct Solved {
 struct Balance {
     bool is_rebuilt = false; ///< from rivers with heights of a file
     /// Solves for the land once.
-    std::function<Solved(Channels const& channels, surface::EquilibriumFields const& fields,
-                         surface::EquilibriumParams const& params)>
+    std::function<SolvedEquilibrium(Channels const& channels, surface::EquilibriumFields const& fields,
+                                    surface::EquilibriumParams const& params)>
         solve;
 };
 

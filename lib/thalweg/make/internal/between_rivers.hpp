@@ -57,6 +57,7 @@ Raster<float> over_triangles(Between const& between, Run const& run);
 Raster<float> only_inside(Raster<float> dem, Mask const& inside);
 
 /// The check points_missing: random points that found no room, with findings on room.
-Check points_missing(skeleton::Scattered const& points, recipe::SkeletonRecipe const& wanted, StageLog& stage_log);
+Check points_missing(skeleton::ScatteredPoints const& points, recipe::SkeletonRecipe const& wanted,
+                     StageLog& stage_log);
 
 } // namespace thalweg::make

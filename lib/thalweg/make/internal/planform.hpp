@@ -50,13 +50,13 @@ struct SourceRivers {
 SourceRivers rivers_of_source(RiversInput const& in, StageLog& stage_log, Run const& run);
 
 /// A network whose arcs name their types.
-struct Typed {
+struct TypedNetwork {
     StreamNetwork network;
     network::RiverTypes types; ///< by arc; empty where the recipe asks for none
 };
 
 /// Assigns types where heights follow from them or the recipe asks for braided rivers. Arcs keep types that they have,
 /// so that it may be repeated when arcs are added or removed.
-Typed type_rivers(StreamNetwork network, recipe::NetworkRecipe const& wanted, Run const& run);
+TypedNetwork type_rivers(StreamNetwork network, recipe::NetworkRecipe const& wanted, Run const& run);
 
 } // namespace thalweg::make

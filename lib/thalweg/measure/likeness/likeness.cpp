@@ -167,16 +167,16 @@ Mask divides_of(Raster<std::int32_t> const& reach, Raster<float> const& dem, Mas
 }
 
 /// What is compared of one terrain.
-struct Drained {
+struct ComparedTerrain {
     Raster<std::int32_t> reach;
     Mask divides;
     Mask near_divides;
     std::vector<std::int64_t> slopes;
 };
 
-Drained drained(Raster<float> const& dem, Mask const& compared, flow::Reaches const& reaches, RiverCells const& rivers,
-                Run const& run) {
-    Drained found;
+ComparedTerrain drained(Raster<float> const& dem, Mask const& compared, flow::Reaches const& reaches,
+                        RiverCells const& rivers, Run const& run) {
+    ComparedTerrain found;
     found.reach = flow::catchments(reaches, flow::route(dem, run), run).reach;
     found.divides = divides_of(found.reach, dem, compared, rivers);
     found.near_divides = widened(found.divides, within_cells);
@@ -262,7 +262,7 @@ ComparedTerrains compare_terrains(Raster<float> const& dem, std::vector<Raster<f
     }
     Mask const compared = compared_cells(dem);
     RiverCells const near = near_rivers(rivers, dem.grid(), run);
-    Drained const real = drained(dem, compared, rivers, near, run);
+    ComparedTerrain const real = drained(dem, compared, rivers, near, run);
     ComparedTerrains found;
     found.cells = std::ranges::count(compared.values(), 1);
     found.divides.push_back(real.divides);
@@ -272,7 +272,7 @@ ComparedTerrains compare_terrains(Raster<float> const& dem, std::vector<Raster<f
             found.divides.emplace_back(dem.grid());
             continue;
         }
-        Drained made = drained(terrain, compared, rivers, near, run);
+        ComparedTerrain made = drained(terrain, compared, rivers, near, run);
         compare_heights(dem, terrain, compared, near, like, run);
         std::int64_t drains = 0;
         std::int64_t same = 0;

@@ -141,6 +141,7 @@ struct ReliefRange {
     double high = 0.0; ///< [unit of the metric]
 };
 
+/// \internal
 /// Computes the plausible range of a metric.
 /// \param figure index in relief_metrics()
 /// \return from the smaller reference value / tolerance to the larger * tolerance; from 0 where large values alone

@@ -138,7 +138,7 @@ struct Knickpoint {
 };
 
 /// Finds knickpoints along every stem, from its source to a larger river or the outlet: the place highest above the
-/// lower convex hull of height against chi is one if it stands higher than drop_m, then likewise on both sides of it.
+/// lower convex hull of height against chi is one if it stands drop_m or higher, then likewise on both sides of it.
 /// \param rivers profiles
 /// \param chi of these profiles
 /// \return ascending by place

@@ -188,15 +188,15 @@ double tolerance(double right, double vertices) {
 }
 
 /// Values that follow from an arc's line.
-struct Measured {
+struct LineMeasures {
     double length = 0.0;
     double length_3d = 0.0;
     double straight = 0.0;
     double vertices = 0.0;
 };
 
-Measured measured(FileArc const& arc) {
-    Measured of;
+LineMeasures measured(FileArc const& arc) {
+    LineMeasures of;
     of.vertices = static_cast<double>(arc.line.size());
     for (std::size_t i = 1; i < arc.line.size(); ++i) {
         double const plan = distance(plan_of(arc.line[i - 1]), plan_of(arc.line[i]));
@@ -303,7 +303,7 @@ private:
     void check_line(std::size_t a) {
         FileArc const& arc = file_.arcs[a];
         NetworkFile::ArcColumns const& told = arc.columns;
-        Measured const& of = measured_[a];
+        LineMeasures const& of = measured_[a];
         if (arc.line.size() < 2) {
             return; // reported elsewhere
         }
@@ -468,12 +468,12 @@ private:
     Joints const& joints_;
     Graph const& g_;
     Findings& findings_;
-    std::vector<Measured> measured_; ///< by arc
-    std::vector<InTree> tree_;       ///< by arc
-    std::vector<double> longest_;    ///< by arc
-    std::vector<double> strahler_;   ///< by arc
-    std::vector<AtNode> at_node_;    ///< by node
-    std::vector<std::size_t> order_; ///< arcs of trees in upstream order
+    std::vector<LineMeasures> measured_; ///< by arc
+    std::vector<InTree> tree_;           ///< by arc
+    std::vector<double> longest_;        ///< by arc
+    std::vector<double> strahler_;       ///< by arc
+    std::vector<AtNode> at_node_;        ///< by node
+    std::vector<std::size_t> order_;     ///< arcs of trees in upstream order
 };
 
 } // namespace

@@ -49,7 +49,7 @@ std::vector<Vec2> without_repeats(std::vector<Vec3> const& vertices) {
 }
 
 /// A line for comparison in either direction.
-struct Undirected {
+struct UndirectedLine {
     std::vector<Vec2> const* line;
     bool back;
     std::size_t arc;
@@ -57,7 +57,7 @@ struct Undirected {
     Vec2 vertex(std::size_t i) const { return back ? (*line)[line->size() - 1 - i] : (*line)[i]; }
 };
 
-Undirected undirected(std::vector<Vec2> const& line, std::size_t arc) {
+UndirectedLine undirected(std::vector<Vec2> const& line, std::size_t arc) {
     auto const key = [](Vec2 p) { return std::tuple(p.x, p.y); };
     for (std::size_t i = 0, j = line.size() - 1; i < j; ++i, --j) {
         if (line[i] != line[j]) {
@@ -68,7 +68,7 @@ Undirected undirected(std::vector<Vec2> const& line, std::size_t arc) {
 }
 
 /// -1, 0, 1: by number of vertices, then vertex by vertex.
-int compare(Undirected const& p, Undirected const& q) {
+int compare(UndirectedLine const& p, UndirectedLine const& q) {
     if (p.line->size() != q.line->size()) {
         return p.line->size() < q.line->size() ? -1 : 1;
     }
@@ -343,13 +343,13 @@ Outlines check_shapes(NetworkFile const& file, Findings& findings) {
 }
 
 std::vector<char> check_copies(NetworkFile const& file, Outlines const& plans, Findings& findings) {
-    std::vector<Undirected> lines;
+    std::vector<UndirectedLine> lines;
     for (std::size_t a = 0; a < plans.size(); ++a) {
         if (!plans[a].empty()) {
             lines.push_back(undirected(plans[a], a));
         }
     }
-    std::sort(lines.begin(), lines.end(), [](Undirected const& p, Undirected const& q) {
+    std::sort(lines.begin(), lines.end(), [](UndirectedLine const& p, UndirectedLine const& q) {
         int const order = compare(p, q);
         return order != 0 ? order < 0 : p.arc < q.arc;
     });

@@ -60,7 +60,7 @@ ChannelsOfArcs channels(StreamNetwork const& network, Grid const& grid, Channels
                         Run const& run = {});
 
 /// What shorten() returns.
-struct Shortened {
+struct ShortenedChannels {
     StreamNetwork network;
     ChannelsOfArcs drawn; ///< the remaining channels, with new numbers of cells and arcs
     /// "shortened", one an arc; where: its new upper end, or its old one if nothing remains; amount: [m]
@@ -76,6 +76,7 @@ struct Shortened {
 /// from the new beginning.
 /// \throws BadInput for a number that is not a channel's, a removed cell with inflow that stays, or channels of another
 /// network
-Shortened shorten(StreamNetwork const& network, ChannelsOfArcs const& drawn, std::vector<std::int64_t> const& gone);
+ShortenedChannels shorten(StreamNetwork const& network, ChannelsOfArcs const& drawn,
+                          std::vector<std::int64_t> const& gone);
 
 } // namespace thalweg::network

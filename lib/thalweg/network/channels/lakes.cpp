@@ -496,8 +496,8 @@ void raise_to_lakes(Channels& channels) {
 }
 
 /// The channels with their lakes, in a new order.
-Flooded with_lakes(ChannelsOfArcs const& drawn, Lakes lakes, std::vector<std::int64_t> const& order) {
-    Flooded out;
+FloodedLakes with_lakes(ChannelsOfArcs const& drawn, Lakes lakes, std::vector<std::int64_t> const& order) {
+    FloodedLakes out;
     std::vector<ChannelId> now(lakes.cell.size(), no_cell);
     Channels& channels = out.drawn.channels;
     channels.grid = drawn.channels.grid;
@@ -568,7 +568,7 @@ Raster<std::int32_t> choose_lakes(ChannelsOfArcs const& drawn, std::vector<doubl
     return std::move(shores.labels);
 }
 
-Flooded flood_lakes(ChannelsOfArcs const& drawn, Raster<std::int32_t> const& labels, Run const& run) {
+FloodedLakes flood_lakes(ChannelsOfArcs const& drawn, Raster<std::int32_t> const& labels, Run const& run) {
     require_same_grid(labels.grid(), drawn.channels.grid, "network.flood_lakes: the lakes and the channels",
                       "draw both on one grid");
     Raster<std::int32_t> kept = kept_apart(labels);

@@ -56,7 +56,7 @@ struct Lake {
 };
 
 /// What flood_lakes() returns.
-struct Flooded {
+struct FloodedLakes {
     ChannelsOfArcs drawn; ///< with the cells of lakes; `level` is set
     std::vector<Lake> lakes;
     /// where: a cell of the lake; amount: a number. "lake_left_out" [cells]: no river runs through it, or fewer than
@@ -74,7 +74,7 @@ struct Flooded {
 /// \return channels that keep their law; a lake's cells are 8-connected and drain by shortest paths to the outlet.
 /// Prescribed heights: a lake takes its outlet's, its inflows are raised to it.
 /// \throws BadInput for a raster on another grid or a label below 0
-Flooded flood_lakes(ChannelsOfArcs const& drawn, Raster<std::int32_t> const& labels, Run const& run = {});
+FloodedLakes flood_lakes(ChannelsOfArcs const& drawn, Raster<std::int32_t> const& labels, Run const& run = {});
 
 /// One warning for all lakes that have not the levels asked.
 /// \param lakes a note on each

@@ -288,7 +288,8 @@ private:
 
 } // namespace
 
-Shortened shorten(StreamNetwork const& network, ChannelsOfArcs const& drawn, std::vector<std::int64_t> const& gone) {
+ShortenedChannels shorten(StreamNetwork const& network, ChannelsOfArcs const& drawn,
+                          std::vector<std::int64_t> const& gone) {
     require_trees(network, "network.shorten");
     refuse_if<BadInput>(drawn.of_arc.size() != network.arc_count(),
                         "network.shorten: channels of {} arcs for {}; draw this network", drawn.of_arc.size(),
@@ -303,7 +304,7 @@ Shortened shorten(StreamNetwork const& network, ChannelsOfArcs const& drawn, std
         lengths.push_back(static_cast<std::int64_t>(std::floor(length_m * 1024.0)));
     }
     KeptArcs kept = keep_arcs(shortened, lengths, tips.kept, Merge::new_ones);
-    Shortened out;
+    ShortenedChannels out;
     out.network = std::move(kept.network);
     out.notes = std::move(tips.notes);
     std::vector<ChannelId> now;

@@ -35,17 +35,17 @@ double height_at(Raster<float> const& dem, Vec2 p) {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// The nearest known height in one direction, and its distance.
-struct Known {
+struct KnownHeight {
     double z = unknown;
     double away_m = 0.0;
     Cell cell = {};
 };
 
-Known farther(Known at, double way_m) {
+KnownHeight farther(KnownHeight at, double way_m) {
     return {at.z, at.away_m + way_m, at.cell};
 }
 
-double between(Known up, Known down) {
+double between(KnownHeight up, KnownHeight down) {
     if (std::isnan(up.z)) {
         return down.z;
     }
@@ -114,29 +114,29 @@ private:
 
     /// Whether a height adds no information to the one upstream: it is higher; or equal, in the same cell, to which
     /// lines may return from downstream, or off a lake, where the water took another path.
-    bool adds_nothing(double z, Cell cell, Known above) const {
+    bool adds_nothing(double z, Cell cell, KnownHeight above) const {
         return z > above.z || (z == above.z && (cell == above.cell || !lake_.contains(land_.grid().index(cell))));
     }
 
     /// Sources first: finds the nearest known height upstream of each vertex; of several arcs the lowest.
     void look_up() {
-        std::vector<Known> above(network_.node_count());
+        std::vector<KnownHeight> above(network_.node_count());
         for (auto n = network_.upstream_order().rbegin(); n != network_.upstream_order().rend(); ++n) {
             if (network_.out(*n) == no_arc) {
                 continue;
             }
             auto const a = network_.out(*n);
-            Known at = above[*n];
+            KnownHeight at = above[*n];
             for (std::size_t i = 0; i < z_[a].size(); ++i) {
                 at = farther(at, i == 0 ? 0.0 : distance(line(a)[i - 1], line(a)[i]));
                 bool const is_outlet = i + 1 == z_[a].size() && network_.out(network_.to(a)) == no_arc;
                 if (!is_outlet && adds_nothing(z_[a][i], cells_[a][i], at)) {
                     z_[a][i] = unknown;
                 }
-                at = std::isnan(z_[a][i]) ? at : Known{z_[a][i], 0.0, cells_[a][i]};
+                at = std::isnan(z_[a][i]) ? at : KnownHeight{z_[a][i], 0.0, cells_[a][i]};
                 up_[a].push_back(at);
             }
-            Known& below = above[network_.to(a)];
+            KnownHeight& below = above[network_.to(a)];
             bool const is_lower = at.z < below.z || (at.z == below.z && at.away_m < below.away_m);
             below = std::isnan(below.z) || is_lower ? at : below;
         }
@@ -145,7 +145,7 @@ private:
     /// Outlets first: interpolates unknown heights between those upstream and downstream.
     void look_down() {
         struct Node {
-            Known below; ///< the vertex itself included
+            KnownHeight below; ///< the vertex itself included
             double z = unknown;
         };
         std::vector<Node> nodes(network_.node_count());
@@ -154,8 +154,8 @@ private:
                 continue;
             }
             auto const a = network_.out(n);
-            Known at =
-                std::isnan(z_[a].back()) ? nodes[network_.to(a)].below : Known{z_[a].back(), 0.0, cells_[a].back()};
+            KnownHeight at = std::isnan(z_[a].back()) ? nodes[network_.to(a)].below
+                                                      : KnownHeight{z_[a].back(), 0.0, cells_[a].back()};
             if (std::isnan(z_[a].back())) {
                 z_[a].back() = nodes[network_.to(a)].z;
             }
@@ -177,7 +177,8 @@ private:
     std::unordered_set<std::int64_t> lake_; ///< cells of lakes and of their outlets
     std::vector<std::vector<Cell>> cells_;  ///< by arc, by vertex
     std::vector<std::vector<double>> z_;    ///< by arc, by vertex
-    std::vector<std::vector<Known>> up_;    ///< by arc, by vertex: the nearest known height upstream, itself included
+    std::vector<std::vector<KnownHeight>>
+        up_; ///< by arc, by vertex: the nearest known height upstream, itself included
 };
 
 /// Tracks the slope of a river over its last stretch of known heights, downstream.
@@ -202,11 +203,11 @@ public:
 
 private:
     static constexpr double long_enough_m = 1000.0; // shorter stretches are dominated by noise
-    struct Known {
+    struct KnownHeight {
         double z;
         double way_m; ///< from the previous one
     };
-    std::deque<Known> stretch_;
+    std::deque<KnownHeight> stretch_;
     double length_m_ = 0.0;
     double slope_;
 };
@@ -219,7 +220,7 @@ double noise_of_heights(double low_m, double high_m) {
     return std::max(least_m, share * (high_m - low_m));
 }
 
-Lowered lower_rises(StreamNetwork const& network, std::vector<std::vector<double>> const& arc_z) {
+LoweredNetwork lower_rises(StreamNetwork const& network, std::vector<std::vector<double>> const& arc_z) {
     require_trees(network, "network.lower_rises");
     bool whole = arc_z.size() == network.arc_count();
     for (std::size_t a = 0; whole && a < arc_z.size(); ++a) {
@@ -227,7 +228,7 @@ Lowered lower_rises(StreamNetwork const& network, std::vector<std::vector<double
     }
     refuse_if<BadInput>(!whole, "network.lower_rises: heights are not one for each vertex of {} arcs",
                         network.arc_count());
-    Lowered lowered{{network, {}, arc_z}, std::vector<double>(arc_z.size(), 0.0)};
+    LoweredNetwork lowered{{network, {}, arc_z}, std::vector<double>(arc_z.size(), 0.0)};
     auto& node_z = lowered.network.node_z;
     node_z.assign(network.node_count(), std::numeric_limits<double>::infinity());
     for (auto node = network.upstream_order().rbegin(); node != network.upstream_order().rend(); ++node) {

@@ -57,7 +57,7 @@ ElevatedNetwork keep_heights(StreamNetwork const& network, ElevatedNetwork const
 double noise_of_heights(double low_m, double high_m);
 
 /// What lower_rises() returns.
-struct Lowered {
+struct LoweredNetwork {
     ElevatedNetwork network;
     std::vector<double> by_m; ///< [m] by arc: the largest lowering of its vertices; 0: none
 };
@@ -67,6 +67,6 @@ struct Lowered {
 /// \param arc_z [m] by arc, by vertex; arcs may differ at a node
 /// \return Law: the highest heights that nowhere exceed the input, do not rise downstream and agree at nodes
 /// \throws BadInput when there is not one height per vertex, or the network is not a forest
-Lowered lower_rises(StreamNetwork const& network, std::vector<std::vector<double>> const& arc_z);
+LoweredNetwork lower_rises(StreamNetwork const& network, std::vector<std::vector<double>> const& arc_z);
 
 } // namespace thalweg::network

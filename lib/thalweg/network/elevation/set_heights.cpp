@@ -237,12 +237,12 @@ double slope_at(Vec2 place, Rosgen type, HeightsByTypeParams const& params) {
 
 } // namespace
 
-Elevated set_heights(StreamNetwork const& network, HeightParams const& params, Run const& run) {
+NetworkWithHeights set_heights(StreamNetwork const& network, HeightParams const& params, Run const& run) {
     require_in("network.set_heights", "slope", params.slope, Range::above(0.0), "m/m");
     require_positive_lengths(network, "network.set_heights");
     run.check();
 
-    Elevated raised;
+    NetworkWithHeights raised;
     std::vector<double> const straight = straight_heights(network, params.slope);
     report_uphill(network, straight, raised.report);
     std::vector<double> z;
@@ -259,8 +259,8 @@ Elevated set_heights(StreamNetwork const& network, HeightParams const& params, R
     return raised;
 }
 
-Graded set_heights_graded(StreamNetwork const& network, std::vector<double> const& us_area_m2,
-                          std::vector<double> const& ds_area_m2, GradedParams const& params, Run const& run) {
+GradedNetwork set_heights_graded(StreamNetwork const& network, std::vector<double> const& us_area_m2,
+                                 std::vector<double> const& ds_area_m2, GradedParams const& params, Run const& run) {
     require(params);
     require_positive_lengths(network, "network.set_heights_graded");
     require_areas(network, us_area_m2, ds_area_m2);
@@ -275,7 +275,7 @@ Graded set_heights_graded(StreamNetwork const& network, std::vector<double> cons
         whole.push_back(falls.back().back());
     }
 
-    Graded graded{{network, std::vector<double>(network.node_count(), 0.0), {}}, 0.0};
+    GradedNetwork graded{{network, std::vector<double>(network.node_count(), 0.0), {}}, 0.0};
     if (network.arcs().empty()) {
         return graded;
     }

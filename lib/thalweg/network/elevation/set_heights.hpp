@@ -54,7 +54,7 @@ struct HeightReport {
 };
 
 /// What set_heights() returns.
-struct Elevated {
+struct NetworkWithHeights {
     ElevatedNetwork network;
     HeightReport report;
 };
@@ -66,7 +66,7 @@ struct Elevated {
 /// \throws BadInput for an arc of length 0 or a network that is not a forest
 ///
 /// Source: \cite cao2009, section 3.3, figure 5; specification 0.3 (majorant with least slope 0.01 s).
-Elevated set_heights(StreamNetwork const& network, HeightParams const& params = {}, Run const& run = {});
+NetworkWithHeights set_heights(StreamNetwork const& network, HeightParams const& params = {}, Run const& run = {});
 
 /// Options of set_heights_graded().
 struct GradedParams {
@@ -76,7 +76,7 @@ struct GradedParams {
 };
 
 /// What set_heights_graded() returns.
-struct Graded {
+struct GradedNetwork {
     ElevatedNetwork network;
     double steepness = 0.0; ///< [m^(2 theta)] k_s; 0: no rivers
 };
@@ -92,8 +92,9 @@ struct Graded {
 /// arc
 ///
 /// Source: \cite flint1974, stream gradient as a function of order, magnitude and discharge.
-Graded set_heights_graded(StreamNetwork const& network, std::vector<double> const& us_area_m2,
-                          std::vector<double> const& ds_area_m2, GradedParams const& params, Run const& run = {});
+GradedNetwork set_heights_graded(StreamNetwork const& network, std::vector<double> const& us_area_m2,
+                                 std::vector<double> const& ds_area_m2, GradedParams const& params,
+                                 Run const& run = {});
 
 /// How an arc's slope is chosen from its type's range.
 enum class SlopeDraw : std::uint8_t {

@@ -173,7 +173,7 @@ double crowded_share(RiverLines const& rivers, std::vector<Vec2> const& joints, 
 }
 
 /// The least round number that satisfies a predicate that is true for all larger ones.
-template <class Allowed> std::size_t first_allowed(std::vector<double> const& rounds, Allowed allowed) {
+template <class AllowedValues> std::size_t first_allowed(std::vector<double> const& rounds, AllowedValues allowed) {
     auto const at = std::find_if(rounds.begin(), rounds.end(), allowed);
     return static_cast<std::size_t>(std::min(at, rounds.end() - 1) - rounds.begin());
 }

@@ -50,14 +50,14 @@ std::vector<std::vector<std::size_t>> beside(std::vector<Vec2> const& samples, s
 }
 
 /// Samples of several lines, and what lies beside them.
-struct Sampled {
+struct SampledLines {
     std::vector<std::size_t> lines;
     std::vector<std::vector<std::vector<std::size_t>>> beside; ///< by these lines, by sample
 };
 
 template <class Count>
-Sampled sampled(std::vector<std::size_t> const& which, std::vector<std::vector<Vec2>> const& plans, double near_m,
-                Count const& count_of, Run const& run) {
+SampledLines sampled(std::vector<std::size_t> const& which, std::vector<std::vector<Vec2>> const& plans, double near_m,
+                     Count const& count_of, Run const& run) {
     std::vector<Vec2> all;
     std::vector<std::vector<Vec2>> of_line;
     for (std::size_t const l : which) {
@@ -65,7 +65,7 @@ Sampled sampled(std::vector<std::size_t> const& which, std::vector<std::vector<V
         all.insert(all.end(), of_line.back().begin(), of_line.back().end());
     }
     auto const near = geometry::segments_near(all, plans, near_m, run);
-    Sampled result{which, {}};
+    SampledLines result{which, {}};
     std::size_t first = 0;
     for (std::size_t k = 0; k < which.size(); ++k) {
         result.beside.push_back(beside(of_line[k], which[k], near, first));
@@ -85,7 +85,7 @@ void drop_near_copies(std::vector<RiverLine>& lines, double cell_m, Left& left, 
             candidates.push_back(l);
         }
     }
-    Sampled const quick = sampled(
+    SampledLines const quick = sampled(
         candidates, plans, near_m, [](std::size_t) { return 3; }, run);
     std::vector<std::size_t> likely;
     for (std::size_t k = 0; k < quick.lines.size(); ++k) {
@@ -99,7 +99,7 @@ void drop_near_copies(std::vector<RiverLine>& lines, double cell_m, Left& left, 
     auto const enough = [&](std::size_t l) {
         return std::min(most_samples, static_cast<std::size_t>(length_of(plans[l]) / (apart_in_cells * cell_m)));
     };
-    Sampled const all = sampled(likely, plans, near_m, enough, run);
+    SampledLines const all = sampled(likely, plans, near_m, enough, run);
     std::vector<char> is_gone(lines.size(), 0);
     for (std::size_t k = all.lines.size(); k-- > 0;) {
         std::size_t const l = all.lines[k];

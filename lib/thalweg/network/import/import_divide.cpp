@@ -15,13 +15,13 @@
 namespace thalweg::network::import_steps {
 namespace {
 
-bool arrives(Pieces const& p, Divided const& divided, std::size_t k, std::size_t node) {
+bool arrives(Pieces const& p, DividedPieces const& divided, std::size_t k, std::size_t node) {
     auto const& piece = p.pieces[k];
     return divided.reason[k] == nullptr && piece.from != piece.to &&
            (divided.runs[k] > 0 ? piece.to : piece.from) == node;
 }
 
-bool departs(Pieces const& p, Divided const& divided, std::size_t k, std::size_t node) {
+bool departs(Pieces const& p, DividedPieces const& divided, std::size_t k, std::size_t node) {
     auto const& piece = p.pieces[k];
     return divided.reason[k] == nullptr && piece.from != piece.to &&
            (divided.runs[k] > 0 ? piece.from : piece.to) == node;
@@ -62,7 +62,7 @@ double straightness(Pieces const& p, std::vector<RiverLine> const& lines, std::s
 }
 
 // [m] By node: total length of the pieces upstream, divided equally at bifurcations; without cycles.
-std::vector<double> lengths_above(Pieces const& p, Divided const& divided) {
+std::vector<double> lengths_above(Pieces const& p, DividedPieces const& divided) {
     std::vector<double> above(p.nodes.size(), 0.0);
     std::vector<std::size_t> awaited(p.nodes.size(), 0);
     std::vector<std::size_t> ready;
@@ -90,7 +90,7 @@ std::vector<double> lengths_above(Pieces const& p, Divided const& divided) {
 
 // Chooses the main branch among the pieces that leave a node: see import_lines. above: from lengths_above; branches: at
 // least one, with known directions.
-std::size_t main_of(Pieces const& p, std::vector<RiverLine> const& lines, Divided const& divided,
+std::size_t main_of(Pieces const& p, std::vector<RiverLine> const& lines, DividedPieces const& divided,
                     std::vector<double> const& length_above, std::size_t node,
                     std::vector<std::size_t> const& branches) {
     if (branches.size() == 1) {
@@ -170,7 +170,7 @@ public:
         noise_m_ = noise_of(lines);
     }
 
-    Divided divide(Run const& run) {
+    DividedPieces divide(Run const& run) {
         auto const components = components_of(p_);
         for (Component const& component : components) {
             take_directions(component);
@@ -480,13 +480,13 @@ private:
     Votes const& drawn_;                  ///< or estimated
     double noise_m_ = 0.0;                ///< of heights
     Sets kept_;
-    Divided divided_ = {};
+    DividedPieces divided_ = {};
 };
 
 constexpr char const* unfed = "goes on from a minor channel";
 
 /// By node: the pieces outside the network that touch it, without rings.
-std::vector<std::vector<std::size_t>> outside_at(Pieces const& p, Divided const& divided) {
+std::vector<std::vector<std::size_t>> outside_at(Pieces const& p, DividedPieces const& divided) {
     std::vector<std::vector<std::size_t>> at(p.nodes.size());
     for (std::size_t k = 0; k < p.pieces.size(); ++k) {
         if (divided.reason[k] != nullptr && p.pieces[k].from != p.pieces[k].to) {
@@ -499,12 +499,13 @@ std::vector<std::vector<std::size_t>> outside_at(Pieces const& p, Divided const&
 
 } // namespace
 
-Divided divide(Pieces& pieces, std::vector<RiverLine> const& lines, RiverLines const& file, Orientation orientation,
-               std::vector<Evidence> const& evidence, Votes const& drawn, Run const& run) {
+DividedPieces divide(Pieces& pieces, std::vector<RiverLine> const& lines, RiverLines const& file,
+                     Orientation orientation, std::vector<Evidence> const& evidence, Votes const& drawn,
+                     Run const& run) {
     return Divider(pieces, lines, file, orientation, evidence, drawn).divide(run);
 }
 
-void drop_unfed(Pieces& p, Divided& divided, std::vector<PieceId>& leaves) {
+void drop_unfed(Pieces& p, DividedPieces& divided, std::vector<PieceId>& leaves) {
     auto const outside = outside_at(p, divided);
     std::vector<int> arriving(p.nodes.size(), 0);
     auto const below = [&](std::size_t n) { return other_end(p.pieces[leaves[n]], n); };
@@ -535,8 +536,8 @@ void drop_unfed(Pieces& p, Divided& divided, std::vector<PieceId>& leaves) {
     }
 }
 
-std::vector<SecondaryLine> secondary_lines(Pieces const& p, Divided const& divided, std::vector<RiverLine> const& lines,
-                                           std::vector<Finding>& repairs) {
+std::vector<SecondaryLine> secondary_lines(Pieces const& p, DividedPieces const& divided,
+                                           std::vector<RiverLine> const& lines, std::vector<Finding>& repairs) {
     std::vector<SecondaryLine> secondary;
     for (std::size_t k = 0; k < p.pieces.size(); ++k) {
         if (divided.reason[k] == nullptr) {

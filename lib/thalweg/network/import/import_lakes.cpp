@@ -9,12 +9,15 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/append.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/diagram.hpp>
 #include <thalweg/geometry/nearby.hpp>
 #include <thalweg/geometry/polylines.hpp>
 #include <thalweg/network/import/internal/import_lines.hpp>
+#include <thalweg/network/import/internal/lake_findings.hpp>
+#include <thalweg/network/import/internal/lake_middle.hpp>
 
 namespace thalweg::network::import_steps {
 namespace {
@@ -22,372 +25,7 @@ namespace {
 constexpr double shore_cells = 0.5;     // an end lies at a shore that is within
 constexpr double inflow_cells = 2.0;    // or within this, where water leaves its line, or no river begins nearer
 constexpr double frame_cells = 2.0;     // lines through lakes keep from the border of the grid
-constexpr double apart_m = 0.05;        // places on a shore, at least
 constexpr double tolerance_cells = 0.1; // of a line through a lake
-
-/// A place on the outer ring of a lake.
-struct ShorePlace {
-    std::size_t segment = 0;
-    double along = 0.0;
-    Vec2 at;
-    double distance_m = std::numeric_limits<double>::infinity();
-};
-
-/// [0, 1] where segment ab meets segment cd, if it does; parallel ones do not.
-std::optional<double> meeting_along(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
-    double const of_c = cross(a, b, c);
-    double const of_d = cross(a, b, d);
-    double const of_a = cross(c, d, a);
-    double const of_b = cross(c, d, b);
-    if (of_a == of_b || (of_c > 0.0) == (of_d > 0.0) || of_a * of_b > 0.0) {
-        return std::nullopt;
-    }
-    return std::clamp(of_a / (of_a - of_b), 0.0, 1.0);
-}
-
-/// The outline of a lake: its shore, and its islands.
-class Outline {
-public:
-    explicit Outline(Polygon const& lake) : rings_(lake.rings) {
-        for (Vec2 const p : rings_.front()) {
-            low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
-            high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
-        }
-    }
-
-    Vec2 low() const { return low_; }
-    Vec2 high() const { return high_; }
-    std::vector<Vec2> const& shore() const { return rings_.front(); }
-    std::vector<std::vector<Vec2>> const& rings() const { return rings_; }
-
-    bool is_about(Vec2 p, double m) const {
-        return p.x >= low_.x - m && p.x <= high_.x + m && p.y >= low_.y - m && p.y <= high_.y + m;
-    }
-
-    bool contains(Vec2 p) const {
-        bool inside = false;
-        for (std::vector<Vec2> const& ring : rings_) {
-            inside = inside != geometry::contains(ring, p);
-        }
-        return inside;
-    }
-
-    ShorePlace nearest(Vec2 p) const {
-        ShorePlace best;
-        for (std::size_t i = 0; i < shore().size(); ++i) {
-            geometry::Foot const foot = geometry::foot_on(shore()[i], shore()[(i + 1) % shore().size()], p);
-            if (double const d = distance(p, foot.at); d < best.distance_m) {
-                best = {i, foot.along, foot.at, d};
-            }
-        }
-        return best;
-    }
-
-    /// The nearest point of an island's shore.
-    ShorePlace nearest_on_island(Vec2 p) const {
-        ShorePlace best;
-        for (std::size_t r = 1; r < rings_.size(); ++r) {
-            for (std::size_t i = 0; i < rings_[r].size(); ++i) {
-                geometry::Foot const foot = geometry::foot_on(rings_[r][i], rings_[r][(i + 1) % rings_[r].size()], p);
-                if (double const d = distance(p, foot.at); d < best.distance_m) {
-                    best = {i, foot.along, foot.at, d};
-                }
-            }
-        }
-        return best;
-    }
-
-    /// Where a segment from within the lake first meets the outer shore.
-    std::optional<ShorePlace> way_out(Vec2 from, Vec2 to) const {
-        std::optional<ShorePlace> first;
-        for (std::size_t i = 0; i < shore().size(); ++i) {
-            Vec2 const c = shore()[i];
-            Vec2 const d = shore()[(i + 1) % shore().size()];
-            if (auto const along = meeting_along(from, to, c, d)) {
-                Vec2 const at = from + *along * (to - from);
-                if (!first || distance(from, at) < first->distance_m) {
-                    first = ShorePlace{i, geometry::foot_on(c, d, at).along, at, distance(from, at)};
-                }
-            }
-        }
-        return first;
-    }
-
-    /// Whether the straight way between two places is in the water; the first may lie on the shore.
-    bool sees(Vec2 a, Vec2 b) const {
-        for (std::vector<Vec2> const& ring : rings_) {
-            for (std::size_t i = 0; i < ring.size(); ++i) {
-                auto const along = meeting_along(a, b, ring[i], ring[(i + 1) % ring.size()]);
-                if (along && *along * distance(a, b) > apart_m) {
-                    return false;
-                }
-            }
-        }
-        return contains(a + 0.5 * (b - a));
-    }
-
-private:
-    std::vector<std::vector<Vec2>> const& rings_;
-    Vec2 low_{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-    Vec2 high_{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-};
-
-/// Where a river meets the shore of a lake.
-struct Mouth {
-    std::size_t line = 0;
-    Vec2 tip;                 ///< end of the line
-    int flow = 0;             ///< 1: water leaves the line there, -1: it begins there, 0: unknown
-    bool is_said = false;     ///< that is by more than the drawing
-    ShorePlace shore;         ///< where the line crosses the shore
-    std::vector<Vec2> inside; ///< the line from its tip to the shore, both included; where it ends ashore the shore
-    std::optional<Insertion> on = {};  ///< of a river that passes through: its own vertex at the shore
-    double ashore_m = 0.0;             ///< from the tip to the shore, where it lies on land
-    std::optional<double> made_z = {}; ///< [m] of a place where water leaves that is of no line
-
-    /// Where the way through the lake begins.
-    Vec2 begin() const { return inside.front(); }
-};
-
-/// The medial lines of a lake between the pieces of shore from one mouth to the next: a tree whose leaves are mouths.
-class MiddleTree {
-public:
-    /// \param mouths along the shore, two or more
-    MiddleTree(Outline const& lake, std::vector<Mouth> const& mouths, double tolerance_m, Run const& run) {
-        std::vector<geometry::LabelledLine> shores = pieces_of_shore(lake, mouths);
-        append_islands(lake, shores);
-        double const margin_m = 1.0 + 0.01 * distance(lake.low(), lake.high());
-        geometry::Bounds const bounds{lake.low().x - margin_m, lake.low().y - margin_m, lake.high().x + margin_m,
-                                      lake.high().y + margin_m};
-        diagram_ = geometry::medial_lines(shores, bounds, {tolerance_m}, run);
-        at_.resize(diagram_.vertices.size());
-        for (std::size_t e = 0; e < diagram_.edges.size(); ++e) {
-            geometry::Diagram::Edge const& edge = diagram_.edges[e];
-            std::size_t const half = edge.line.size() / 2;
-            if (edge.from != edge.to &&
-                lake.contains(edge.line[half - 1] + 0.5 * (edge.line[half] - edge.line[half - 1]))) {
-                at_[edge.from].push_back(e);
-                at_[edge.to].push_back(e);
-            }
-        }
-        for (Mouth const& mouth : mouths) {
-            leaf_.push_back(nearest_leaf(mouth.begin()));
-        }
-    }
-
-    /// Ways from every mouth to one of them.
-    void root_at(std::size_t mouth) {
-        using Entry = std::pair<double, std::size_t>;
-        std::vector<double> way_m(at_.size(), std::numeric_limits<double>::infinity());
-        towards_.assign(at_.size(), no_edge);
-        std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-        way_m[leaf_[mouth]] = 0.0;
-        queue.emplace(0.0, leaf_[mouth]);
-        while (!queue.empty()) {
-            auto const [m, v] = queue.top();
-            queue.pop();
-            if (m > way_m[v]) {
-                continue;
-            }
-            for (std::size_t const e : at_[v]) {
-                std::size_t const to = other_end(e, v);
-                if (double const next_m = m + length_of(e); next_m < way_m[to]) {
-                    way_m[to] = next_m;
-                    towards_[to] = e;
-                    queue.emplace(next_m, to);
-                }
-            }
-        }
-        is_taken_.assign(at_.size(), 0);
-    }
-
-    /// A way to the root, as far as no other has been taken.
-    struct Way {
-        std::vector<Vec2> line;
-        std::vector<std::pair<std::size_t, std::size_t>> vertices; ///< of the tree, and their places in the line
-        bool ends_at_root = false;
-    };
-
-    /// The way from a mouth's leaf.
-    Way way_from(std::size_t mouth) const {
-        std::size_t v = leaf_[mouth];
-        Way way{{diagram_.vertices[v].at}, {{v, 0}}};
-        while (is_taken_[v] == 0 && towards_[v] != no_edge) {
-            geometry::Diagram::Edge const& edge = diagram_.edges[towards_[v]];
-            if (edge.from == v) {
-                way.line.insert(way.line.end(), edge.line.begin() + 1, edge.line.end());
-            } else {
-                way.line.insert(way.line.end(), edge.line.rbegin() + 1, edge.line.rend());
-            }
-            v = other_end(towards_[v], v);
-            way.vertices.emplace_back(v, way.line.size() - 1);
-        }
-        way.ends_at_root = is_taken_[v] == 0;
-        return way;
-    }
-
-    /// Takes the first vertices of a way's line.
-    void take(Way const& way, std::size_t vertices) {
-        for (auto const& [v, place] : way.vertices) {
-            is_taken_[v] = is_taken_[v] != 0 || place < vertices ? 1 : 0;
-        }
-    }
-
-    bool is_whole() const {
-        return std::ranges::all_of(leaf_, [&](std::size_t v) { return v != no_edge; });
-    }
-
-private:
-    static constexpr double gap_m = 0.02; ///< between the pieces of shore at a mouth, half of it
-    static constexpr std::size_t no_edge = std::numeric_limits<std::size_t>::max();
-
-    std::size_t other_end(std::size_t e, std::size_t v) const {
-        return diagram_.edges[e].from == v ? diagram_.edges[e].to : diagram_.edges[e].from;
-    }
-
-    double length_of(std::size_t e) const {
-        double length_m = 0.0;
-        std::vector<Vec2> const& line = diagram_.edges[e].line;
-        for (std::size_t i = 1; i < line.size(); ++i) {
-            length_m += distance(line[i - 1], line[i]);
-        }
-        return length_m;
-    }
-
-    /// One label a piece; what a river has in the lake belongs to both sides. At a mouth the pieces end a little before
-    /// it, and a point behind it that belongs to both keeps the middle between them in the lake.
-    static std::vector<geometry::LabelledLine> pieces_of_shore(Outline const& lake, std::vector<Mouth> const& mouths) {
-        std::vector<std::vector<Vec2>> lines;
-        for (std::size_t i = 0; i < mouths.size(); ++i) {
-            lines.push_back(shore_between(lake.shore(), mouths[i], mouths[(i + 1) % mouths.size()]));
-        }
-        double const outward = geometry::signed_area(lake.shore()) > 0.0 ? 1.0 : -1.0;
-        std::vector<geometry::LabelledLine> pieces;
-        std::vector<geometry::LabelledLine> behind;
-        for (std::size_t i = 0; i < mouths.size(); ++i) {
-            if (mouths[i].inside.size() > 1) {
-                continue;
-            }
-            std::size_t const last = (i + mouths.size() - 1) % mouths.size();
-            Vec2 const at = mouths[i].shore.at;
-            Vec2 const before = moved_back(lines[last], false);
-            Vec2 const after = moved_back(lines[i], true);
-            Vec2 const along = after - before;
-            double const m = norm(along);
-            Vec2 const out = m > 0.0 ? (outward * gap_m / m) * Vec2{along.y, -along.x} : Vec2{};
-            if (m > 0.0) {
-                behind.push_back({{at + out}, static_cast<std::int64_t>(last)});
-                behind.push_back({{at + out}, static_cast<std::int64_t>(i)});
-            }
-        }
-        for (std::size_t i = 0; i < lines.size(); ++i) {
-            pieces.push_back({std::move(lines[i]), static_cast<std::int64_t>(i)});
-        }
-        pieces.insert(pieces.end(), behind.begin(), behind.end());
-        return pieces;
-    }
-
-    /// Moves an end of a line back along it. \return where it is then
-    static Vec2 moved_back(std::vector<Vec2>& line, bool is_start) {
-        Vec2& end = is_start ? line.front() : line.back();
-        Vec2 const next = is_start ? line[1] : line[line.size() - 2];
-        double const m = distance(end, next);
-        end = end + (std::min(gap_m, 0.4 * m) / m) * (next - end);
-        return end;
-    }
-
-    static std::vector<Vec2> shore_between(std::vector<Vec2> const& shore, Mouth const& from, Mouth const& to) {
-        std::vector<Vec2> line = from.inside;
-        auto const add = [&](Vec2 p) {
-            if (distance(p, line.back()) > same_point_m) {
-                line.push_back(p);
-            }
-        };
-        std::size_t segment = from.shore.segment;
-        bool const is_around =
-            to.shore.segment < segment || (to.shore.segment == segment && to.shore.along <= from.shore.along);
-        std::size_t const vertices = to.shore.segment + (is_around ? shore.size() : std::size_t{0}) - segment;
-        for (std::size_t k = 0; k < vertices; ++k) {
-            segment = (segment + 1) % shore.size();
-            if (distance(shore[segment], to.inside.back()) > same_point_m) {
-                add(shore[segment]);
-            }
-        }
-        for (auto p = to.inside.rbegin(); p != to.inside.rend(); ++p) {
-            add(*p);
-        }
-        return line;
-    }
-
-    /// An island belongs to what is nearest to it, so that the tree stays one: the piece of shore, or an island that
-    /// belongs to it. Of many the largest count.
-    static void append_islands(Outline const& lake, std::vector<geometry::LabelledLine>& shores) {
-        constexpr std::size_t most_islands = 200;
-        std::vector<std::vector<Vec2>> islands(lake.rings().begin() + 1, lake.rings().end());
-        std::erase_if(islands, [](std::vector<Vec2> const& island) { return island.size() < 3; });
-        std::ranges::stable_sort(islands, std::greater(), [](std::vector<Vec2> const& island) {
-            return std::fabs(geometry::signed_area(island));
-        });
-        islands.resize(std::min(islands.size(), most_islands));
-        struct Nearest {
-            double m = std::numeric_limits<double>::infinity();
-            std::int64_t label = 0;
-        };
-        std::vector<Nearest> nearest(islands.size());
-        for (std::vector<Vec2>& island : islands) {
-            island.push_back(island.front());
-        }
-        auto const look_at = [&](geometry::LabelledLine const& line) {
-            for (std::size_t k = 0; k < islands.size(); ++k) {
-                if (double const m = distance_between(islands[k], line.line); m < nearest[k].m) {
-                    nearest[k] = {m, line.label};
-                }
-            }
-        };
-        std::ranges::for_each(shores, look_at);
-        while (!islands.empty()) {
-            auto const k = std::ranges::min_element(nearest, {}, &Nearest::m) - nearest.begin();
-            shores.push_back(
-                {std::move(islands[static_cast<std::size_t>(k)]), nearest[static_cast<std::size_t>(k)].label});
-            islands.erase(islands.begin() + k);
-            nearest.erase(nearest.begin() + k);
-            look_at(shores.back());
-        }
-    }
-
-    /// [m] Between lines that do not meet.
-    static double distance_between(std::vector<Vec2> const& one, std::vector<Vec2> const& other) {
-        double least_m = std::numeric_limits<double>::infinity();
-        auto const look = [&](std::vector<Vec2> const& points, std::vector<Vec2> const& line) {
-            for (Vec2 const p : points) {
-                for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-                    least_m = std::min(least_m, distance(p, geometry::foot_on(line[i], line[i + 1], p).at));
-                }
-            }
-        };
-        look(one, other);
-        look(other, one);
-        return least_m;
-    }
-
-    std::size_t nearest_leaf(Vec2 p) const {
-        std::size_t best = no_edge;
-        double least_m = std::numeric_limits<double>::infinity();
-        for (std::size_t v = 0; v < at_.size(); ++v) {
-            double const d = distance(diagram_.vertices[v].at, p);
-            if (at_[v].size() == 1 && d < least_m) {
-                best = v;
-                least_m = d;
-            }
-        }
-        return best;
-    }
-
-    geometry::Diagram diagram_;
-    std::vector<std::vector<std::size_t>> at_; ///< by vertex: edges within the lake
-    std::vector<std::size_t> leaf_;            ///< by mouth
-    std::vector<std::size_t> towards_;         ///< by vertex: edge towards the root
-    std::vector<char> is_taken_;               ///< by vertex
-};
 
 /// What is known of the ends of lines.
 struct Flows {
@@ -403,7 +41,7 @@ Flows flows_without_lakes(Pieces const& pieces, Parts const& parts, std::vector<
     ImportParams undivided = params;
     undivided.divergences = Divergences::main;
     Pieces forest = pieces;
-    Divided const divided = divide(forest, lines, file, params.orientation, evidence, found.runs, run);
+    DividedPieces const divided = divide(forest, lines, file, params.orientation, evidence, found.runs, run);
     std::vector<PieceId> const leaves = orient(forest, lines, file, undivided, evidence, found.runs);
     auto const part = [&](PieceId k) { return parts.of_line[pieces.pieces[k].line]; };
     std::vector<char> is_sure(parts.most, is_drawing_sure(found) ? 1 : 0); // by part
@@ -474,7 +112,7 @@ public:
             if (lake.rings.empty() || lake.rings.front().size() < 3) {
                 continue;
             }
-            Outline const outline(lake);
+            LakeOutline const outline(lake);
             AtLake const at = rivers_at(outline);
             std::vector<Mouth> const& mouths = at.mouths;
             if (std::ranges::any_of(mouths, &Mouth::is_said)) {
@@ -501,7 +139,7 @@ public:
         if (lake.rings.empty() || lake.rings.front().size() < 3) {
             return;
         }
-        Outline const outline(lake);
+        LakeOutline const outline(lake);
         auto [mouths, afloat, passing] = rivers_at(outline);
         if (mouths.empty() && (passing.empty() || afloat.empty())) {
             return;
@@ -549,7 +187,7 @@ public:
     }
 
     bool finish() {
-        report();
+        append(left_.repairs, findings_of_lakes(closed_, low_, second_));
         if (added_.empty()) {
             return false;
         }
@@ -571,7 +209,7 @@ private:
     };
 
     /// A river that begins beside a lake leaves it, if no other does.
-    AtLake rivers_at(Outline const& outline) {
+    AtLake rivers_at(LakeOutline const& outline) {
         AtLake at;
         at.mouths = mouths_of(outline, at.afloat);
         follow_links(at.mouths);
@@ -633,7 +271,7 @@ private:
     }
 
     /// The open ends at a shore or within a lake, along its shore; of several at one place the first.
-    std::vector<Mouth> mouths_of(Outline const& lake, std::vector<Mouth>& afloat) {
+    std::vector<Mouth> mouths_of(LakeOutline const& lake, std::vector<Mouth>& afloat) {
         std::vector<Mouth> mouths;
         auto at = std::ranges::lower_bound(open_, lake.low().x - far_m_, {}, &std::pair<double, std::size_t>::first);
         for (; at != open_.end() && at->first <= lake.high().x + far_m_; ++at) {
@@ -680,7 +318,7 @@ private:
     }
 
     /// Follows a line from its end in the lake to the shore. \return false: all of it is in the lake
-    bool goes_ashore(Outline const& lake, std::size_t e, Mouth& mouth) const {
+    bool goes_ashore(LakeOutline const& lake, std::size_t e, Mouth& mouth) const {
         std::vector<Vec2> line = in_plan(lines_[e / 2].vertices);
         if (e % 2 == 1) {
             std::ranges::reverse(line);
@@ -701,7 +339,7 @@ private:
     }
 
     /// The lines in a lake that do not end in it.
-    std::vector<std::size_t> lines_through(Outline const& lake, AtLake const& at) {
+    std::vector<std::size_t> lines_through(LakeOutline const& lake, AtLake const& at) {
         std::vector<std::size_t> through;
         for (std::size_t l = 0; l < boxes_.size(); ++l) {
             auto const& [low, high] = boxes_[l];
@@ -765,9 +403,10 @@ private:
     }
 
     /// Remembers a lake that no river leaves, and where one begins near it.
-    void note_closed(Outline const& outline, std::int64_t lake, std::vector<Mouth> const& mouths) {
+    void note_closed(LakeOutline const& outline, std::int64_t lake, std::vector<Mouth> const& mouths) {
         constexpr double most_times = 10.0; // as far as an inflow may end
-        Closed closed{lake, mouths.front().tip, std::ssize(mouths), nowhere, std::numeric_limits<double>::infinity()};
+        LakeWithoutOutflow closed{lake, mouths.front().tip, std::ssize(mouths), nowhere,
+                                  std::numeric_limits<double>::infinity()};
         double const most_m = most_times * far_m_;
         auto at = std::ranges::lower_bound(open_, outline.low().x - most_m, {}, &std::pair<double, std::size_t>::first);
         for (; at != open_.end() && at->first <= outline.high().x + most_m; ++at) {
@@ -785,7 +424,7 @@ private:
     }
 
     /// The place of the shore nearest to the border, and two cells away from mouths, as one where water leaves.
-    std::optional<Mouth> made_outflow(Outline const& outline, std::vector<Mouth> const& mouths) const {
+    std::optional<Mouth> made_outflow(LakeOutline const& outline, std::vector<Mouth> const& mouths) const {
         Grid const& grid = *params_.frame;
         std::vector<Vec2> const& shore = outline.shore();
         ShorePlace best;
@@ -814,74 +453,6 @@ private:
         return out;
     }
 
-    /// Warns of what lakes without an outflow, or with several as drawn, may mean.
-    void report() {
-        if (!closed_.empty()) {
-            std::int64_t rivers = 0;
-            for (Closed const& closed : closed_) {
-                rivers += closed.rivers;
-            }
-            auto const near = std::ranges::min_element(closed_, {}, &Closed::next_m);
-            bool const has_next = std::isfinite(near->next_m);
-            left_.repairs.push_back(
-                {.kind = "lake_without_outflow",
-                 .feature = near->lake,
-                 .where = near->at,
-                 .amount = static_cast<double>(closed_.size()),
-                 .text = fmt::format(
-                     "{} at the shore of {} that no river leaves, such as lake {}{}{}",
-                     rivers == 1 ? "1 river ends" : fmt::format("{} rivers end", rivers),
-                     closed_.size() == 1 ? "a lake" : fmt::format("{} lakes", closed_.size()), near->lake,
-                     has_next ? fmt::format(": the nearest one begins {:.0f} m from its shore, at ({:.0f}, {:.0f})",
-                                            near->next_m, near->next.x, near->next.y)
-                              : "",
-                     is_finite(near->out)
-                         ? fmt::format("{} its water leaves it at ({:.0f}, {:.0f}), where its shore is nearest to the "
-                                       "border",
-                                       has_next ? ";" : ":", near->out.x, near->out.y)
-                         : ""),
-                 .remedy = has_next
-                               ? fmt::format("If it should leave the lake: --set network.lines.snap={:.0f}, or draw "
-                                             "it to the shore; if the water stays in the lake: --set "
-                                             "network.inland=sink",
-                                             std::ceil(near->next_m))
-                               : "If the water stays in the lake: --set network.inland=sink; else draw its "
-                                 "outflow, or turn it round",
-                 .key = has_next ? "network.lines.snap" : "network.inland",
-                 .numbers = {{"rivers", static_cast<double>(rivers)}}});
-        }
-        if (!low_.empty()) {
-            Low const& most = *std::ranges::max_element(low_, {}, &Low::by_m);
-            left_.repairs.push_back(
-                {.kind = "below_lake",
-                 .feature = most.river,
-                 .where = most.at,
-                 .amount = most.by_m,
-                 .text = fmt::format("{} below a lake and {} not led through it: river {} by {:.1f} m, at ({:.0f}, "
-                                     "{:.0f})",
-                                     low_.size() == 1 ? "1 river ends" : fmt::format("{} rivers end", low_.size()),
-                                     low_.size() == 1 ? "is" : "are", most.river, most.by_m, most.at.x, most.at.y),
-                 .remedy = "Correct its heights, or leave those of the file out: --set network.heights=graded",
-                 .key = "network.heights",
-                 .numbers = {{"rivers", static_cast<double>(low_.size())}}});
-        }
-        if (!second_.empty()) {
-            Second const& one = second_.front();
-            left_.repairs.push_back(
-                {.kind = "lake_outflows",
-                 .feature = one.lake,
-                 .where = one.at,
-                 .amount = static_cast<double>(second_.size()),
-                 .text = fmt::format("{} a lake that another one leaves too, by the drawn direction alone: river {} at "
-                                     "lake {}, at ({:.0f}, {:.0f})",
-                                     second_.size() == 1 ? "1 river leaves"
-                                                         : fmt::format("{} rivers leave", second_.size()),
-                                     one.river, one.lake, one.at.x, one.at.y),
-                 .remedy = "Turn it round in the file if it flows into the lake",
-                 .key = "network.lines.orientation"});
-        }
-    }
-
     /// Whether water runs from a mouth to a height, by the file's; those may be off by noise.
     bool runs_down(Mouth const& mouth, double to_z) const {
         return !has_z_ || mouth.flow < 0 || height_at(mouth) >= to_z - noise_m_;
@@ -893,7 +464,7 @@ private:
     }
 
     /// Joins mouths straight to the rivers that pass through, where the way is in the water; these mouths are removed.
-    void join_to(Outline const& lake, std::vector<std::size_t> const& passing, std::vector<Mouth>& mouths) {
+    void join_to(LakeOutline const& lake, std::vector<std::size_t> const& passing, std::vector<Mouth>& mouths) {
         std::erase_if(mouths, [&](Mouth const& mouth) {
             std::optional<Insertion> goal;
             double least_m = std::numeric_limits<double>::infinity();
@@ -948,7 +519,7 @@ private:
     }
 
     /// Joins what is still apart along the lake's medial lines, to its outflow or to a river that passes through.
-    void join_along_middle(Outline const& lake, std::vector<std::size_t> const& passing, std::vector<Mouth>& mouths,
+    void join_along_middle(LakeOutline const& lake, std::vector<std::size_t> const& passing, std::vector<Mouth>& mouths,
                            Run const& run) {
         if (mouths.empty()) {
             return;
@@ -964,7 +535,7 @@ private:
             return;
         }
         std::size_t const root = root_of(mouths);
-        MiddleTree tree(lake, mouths, tolerance_m_, run);
+        LakeMiddle tree(lake, mouths, tolerance_m_, run);
         double z = height_at(mouths[root]);
         if (mouths[root].on) {
             z = height_on(*mouths[root].on);
@@ -983,7 +554,7 @@ private:
                 note_low(mouth, z);
                 continue;
             }
-            MiddleTree::Way way;
+            LakeMiddle::Way way;
             if (has_middle) {
                 way = tree.way_from(m);
                 std::ranges::for_each(way.line, [&](Vec2& p) { p = within_frame(p); });
@@ -1025,7 +596,7 @@ private:
 
     /// Joins lines in the lake that reach no shore, and those of islands, straight to the nearest way of its water that
     /// is in sight.
-    void join_afloat(Outline const& lake, std::vector<std::size_t> const& passing, std::optional<Mouth> const& root,
+    void join_afloat(LakeOutline const& lake, std::vector<std::size_t> const& passing, std::optional<Mouth> const& root,
                      std::size_t first, std::int64_t number, std::vector<Mouth> const& afloat) {
         struct Goal {
             Vec2 at;
@@ -1101,7 +672,7 @@ private:
     }
 
     /// Where a river that passes through crosses the shore, as a mouth.
-    bool append_passing(Outline const& lake, std::size_t l, std::vector<Mouth>& mouths) const {
+    bool append_passing(LakeOutline const& lake, std::size_t l, std::vector<Mouth>& mouths) const {
         auto const& v = lines_[l].vertices;
         for (std::size_t i = 0; i + 1 < v.size(); ++i) {
             Vec2 const a = in_plan(v[i]);
@@ -1219,32 +790,9 @@ private:
     std::int64_t rivers_ = 0;
     Vec2 out_ = nowhere;
 
-    /// A lake that no river leaves.
-    struct Closed {
-        std::int64_t lake;
-        Vec2 at;
-        std::int64_t rivers;
-        Vec2 next; ///< where a river begins beside it
-        double next_m;
-        Vec2 out = nowhere; ///< where its water leaves it
-    };
-    std::vector<Closed> closed_;
-
-    /// A river that leaves a lake besides its outflow, as drawn.
-    struct Second {
-        std::int64_t lake;
-        std::int64_t river;
-        Vec2 at;
-    };
-    std::vector<Second> second_;
-
-    /// A river that ends below the lake that it reaches.
-    struct Low {
-        std::int64_t river;
-        Vec2 at;
-        double by_m;
-    };
-    std::vector<Low> low_;
+    std::vector<LakeWithoutOutflow> closed_;
+    std::vector<SecondOutflow> second_;
+    std::vector<RiverBelowLake> low_;
 };
 
 } // namespace

@@ -243,8 +243,8 @@ std::int64_t longest_of(std::vector<Stretch> const& stretches) {
     return std::ranges::max_element(stretches, {}, [](Stretch const& s) { return s.to_m - s.from_m; })->feature;
 }
 
-void add_arcs(Imported& imported, Flow const& flow, std::vector<double> const& node_z, bool join, Slips const& slips,
-              import_steps::Left& left) {
+void add_arcs(ImportedNetwork& imported, Flow const& flow, std::vector<double> const& node_z, bool join,
+              Slips const& slips, import_steps::Left& left) {
     auto const inner = join ? vanishing(flow, imported.repairs) : std::vector<char>(flow.leaves.size(), 0);
     auto const heads = [&] {
         std::vector<std::size_t> by_piece; // arcs are numbered in the file's order
@@ -293,7 +293,7 @@ void add_arcs(Imported& imported, Flow const& flow, std::vector<double> const& n
 }
 
 /// Lines through lakes are not the file's: what is done to them is no repair, and what is left of them no river.
-void forget_lake_lines(Imported& imported, std::int64_t number) {
+void forget_lake_lines(ImportedNetwork& imported, std::int64_t number) {
     std::erase_if(imported.secondary, [](SecondaryLine const& line) { return line.feature == 0; });
     std::erase_if(imported.repairs, [&](Finding const& f) {
         return f.feature == number && (f.kind == FindingKind("split") || f.kind == FindingKind("reversed") ||
@@ -302,14 +302,14 @@ void forget_lake_lines(Imported& imported, std::int64_t number) {
     });
 }
 
-Imported imported_with_lakes(RiverLines const& file, ImportParams const& params, Run const& run) {
+ImportedNetwork imported_with_lakes(RiverLines const& file, ImportParams const& params, Run const& run) {
     refuse_if<BadParameter>(!(params.snap_m >= 0.0) || !std::isfinite(params.snap_m),
                             "network.import_lines: snap_m = {}, it is a distance [m] >= 0", params.snap_m);
     refuse_if<BadParameter>(!(params.cell_m >= 0.0) || !std::isfinite(params.cell_m),
                             "network.import_lines: cell_m = {}, it is a distance [m] >= 0", params.cell_m);
     refuse_unusable(file);
     auto lines = file.lines;
-    Imported imported;
+    ImportedNetwork imported;
     auto& repairs = imported.repairs;
     auto const repeats = import_steps::drop_repeats(lines);
     for (std::size_t l = 0; l < lines.size(); ++l) {
@@ -419,7 +419,7 @@ std::string uphill(RiverLines const& file, Vec2 a, Vec2 b, double za, double zb)
 
 } // namespace
 
-Imported import_lines(RiverLines const& file, ImportParams const& params, Run const& run) {
+ImportedNetwork import_lines(RiverLines const& file, ImportParams const& params, Run const& run) {
     if (file.lakes.empty()) {
         return imported_with_lakes(file, params, run);
     }
@@ -428,7 +428,7 @@ Imported import_lines(RiverLines const& file, ImportParams const& params, Run co
     } catch (BadInput const& cannot) { // by heights, say, a lake that rivers run through has two outflows
         RiverLines bare = file;
         bare.lakes.clear();
-        Imported imported = imported_with_lakes(bare, params, run);
+        ImportedNetwork imported = imported_with_lakes(bare, params, run);
         imported.repairs.push_back({"lake_left_out", file.lakes.front().feature,
                                     file.lakes.front().rings.front().front(), 0.0,
                                     fmt::format("no river runs through a lake: {}", cannot.what())});
@@ -436,7 +436,7 @@ Imported import_lines(RiverLines const& file, ImportParams const& params, Run co
     }
 }
 
-ElevatedNetwork take_file_heights(Imported const& imported, RiverLines const& file) {
+ElevatedNetwork take_file_heights(ImportedNetwork const& imported, RiverLines const& file) {
     if (imported.arc_z.size() != imported.network.arc_count()) {
         throw BadInput("network.take_file_heights: the rivers of " + file.name +
                        " carry no heights; leave heights to [network] heights");

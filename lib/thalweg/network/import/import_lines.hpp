@@ -31,7 +31,7 @@
 // (river_heights.hpp), which come before. A group of lines gets one outlet: a delta is oriented to
 // one of its mouths.
 // Example:
-//     Imported const imported = import_lines(lines, {.cell_m = grid.cell_m, .dem = &dem});
+//     ImportedNetwork const imported = import_lines(lines, {.cell_m = grid.cell_m, .dem = &dem});
 //     run.report(imported.directions.doubts); // groups whose direction may be wrong
 //     StreamNetwork const& rivers = imported.network;
 
@@ -101,7 +101,7 @@ struct Directions {
 };
 
 /// What import_lines() returns.
-struct Imported {
+struct ImportedNetwork {
     StreamNetwork network;
     /// [m] by arc, by vertex: the file's heights; empty: none. Where arcs meet, the lowest, but not below the next
     /// vertex downstream
@@ -135,7 +135,7 @@ struct Imported {
 /// away from both ends; no line left; orientation by data that the file lacks; under Divergences::error a cycle or a
 /// bifurcation (automatic: by height or rank only)
 /// \throws BadParameter when a parameter is outside its range
-Imported import_lines(RiverLines const& lines, ImportParams const& params = {}, Run const& run = {});
+ImportedNetwork import_lines(RiverLines const& lines, ImportParams const& params = {}, Run const& run = {});
 
 /// Takes the file's heights as the network's.
 /// \param imported as import_lines returns it
@@ -143,6 +143,6 @@ Imported import_lines(RiverLines const& lines, ImportParams const& params = {}, 
 /// \return heights do not rise downstream
 /// \throws BadInput when there are none, or a river runs uphill: "river 3 in F runs uphill between vertex 4 (12.1 m)
 /// and 5 (12.9 m)"; vertices are counted from 1
-ElevatedNetwork take_file_heights(Imported const& imported, RiverLines const& lines);
+ElevatedNetwork take_file_heights(ImportedNetwork const& imported, RiverLines const& lines);
 
 } // namespace thalweg::network

@@ -18,13 +18,13 @@ void require_arc(StreamNetwork const& network, ArcId arc, char const* what) {
 }
 
 /// A part of a network, and the arcs and nodes that it consists of.
-struct Selected {
+struct SelectedPart {
     StreamNetwork network;
     std::vector<ArcId> arcs;
     std::vector<NodeId> nodes;
 };
 
-Selected selected(StreamNetwork const& network, std::vector<ArcId> arcs) {
+SelectedPart selected(StreamNetwork const& network, std::vector<ArcId> arcs) {
     std::ranges::sort(arcs);
     arcs.erase(std::unique(arcs.begin(), arcs.end()), arcs.end());
     std::vector<NodeId> nodes;
@@ -103,7 +103,7 @@ StreamNetwork select(StreamNetwork const& network, std::vector<ArcId> const& arc
 }
 
 ElevatedNetwork select(ElevatedNetwork const& network, std::vector<ArcId> const& arcs) {
-    Selected part = selected(network.planform, arcs);
+    SelectedPart part = selected(network.planform, arcs);
     ElevatedNetwork found{std::move(part.network), {}, {}};
     for (NodeId const node : part.nodes) {
         found.node_z.push_back(network.node_z[node]);

@@ -550,14 +550,14 @@ private:
     std::vector<NodeId> confluences_;
 };
 
-Carried carry(StreamNetwork const& network, Grid const& grid, RiverEnds const& ends, std::int64_t reach_cells,
-              CarryParams const& params) {
+CarriedNetwork carry(StreamNetwork const& network, Grid const& grid, RiverEnds const& ends, std::int64_t reach_cells,
+                     CarryParams const& params) {
     require_trees(network, "network.carry_outlets");
     refuse_if<BadParameter>(!(params.join_cells >= 0.0 && params.beside_cells >= 0.0),
                             "network.carry_outlets: joining costs {} cells, a cell beside a river {}; give 0 or more",
                             params.join_cells, params.beside_cells);
     Carrying carrying(network, grid, ends, params);
-    Carried carried;
+    CarriedNetwork carried;
     for (NodeId const outlet : outlets_inside(network, grid, ends, reach_cells)) {
         carried.notes.push_back(carrying.carry(outlet));
     }
@@ -567,12 +567,12 @@ Carried carry(StreamNetwork const& network, Grid const& grid, RiverEnds const& e
 
 } // namespace
 
-Carried carry_outlets(StreamNetwork const& network, Grid const& grid, CarryParams const& params) {
+CarriedNetwork carry_outlets(StreamNetwork const& network, Grid const& grid, CarryParams const& params) {
     return carry(network, grid, RiverEnds(grid), std::numeric_limits<std::int64_t>::max(), params);
 }
 
-Carried carry_outlets(StreamNetwork const& network, Mask const& land, std::int64_t reach_cells,
-                      CarryParams const& params) {
+CarriedNetwork carry_outlets(StreamNetwork const& network, Mask const& land, std::int64_t reach_cells,
+                             CarryParams const& params) {
     return carry(network, land.grid(), RiverEnds(land), reach_cells, params);
 }
 

@@ -23,7 +23,7 @@
 // river (import_lines joins ends that nearly meet). A way knows no heights and may cross a real
 // divide.
 // Example:
-//     Carried const carried = carry_outlets(network, grid, {.join_cells = 40.0});
+//     CarriedNetwork const carried = carry_outlets(network, grid, {.join_cells = 40.0});
 //     run.report(carried.notes); // carried_outlet, joined_outlet, closed_basin
 //     StreamNetwork const& rivers = carried.network;
 
@@ -38,7 +38,7 @@ struct CarryParams {
 };
 
 /// What carry_outlets() returns.
-struct Carried {
+struct CarriedNetwork {
     StreamNetwork network;
     std::vector<Finding> notes; ///< one per outlet that was extended, or could not be
 };
@@ -53,14 +53,14 @@ struct Carried {
 /// "carried_outlet" or "joined_outlet" (amount: [m]), or "closed_basin": no path, left in place; feature: id of the
 /// line in its file, or the arc's number from 1.
 /// \throws BadInput for a vertex outside the grid or a network that is not a forest
-Carried carry_outlets(StreamNetwork const& network, Grid const& grid, CarryParams const& params = {});
+CarriedNetwork carry_outlets(StreamNetwork const& network, Grid const& grid, CarryParams const& params = {});
 
 /// Extends outlets over land to the border or to a cell that touches the sea by a side or corner, whichever costs less.
 /// \param network a forest on land
 /// \param land 0: sea
 /// \param reach_cells [cells] chessboard distance; outlets farther from both are left in place without a note
 /// \return as carry_outlets on a grid
-Carried carry_outlets(StreamNetwork const& network, Mask const& land, std::int64_t reach_cells,
-                      CarryParams const& params = {});
+CarriedNetwork carry_outlets(StreamNetwork const& network, Mask const& land, std::int64_t reach_cells,
+                             CarryParams const& params = {});
 
 } // namespace thalweg::network

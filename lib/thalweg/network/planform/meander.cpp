@@ -161,7 +161,7 @@ public:
         take_points();
     }
 
-    Meandered made() {
+    MeanderedNetwork made() {
         // Reduces the plain's waves until none remain.
         for (double const bend : {1.0, 0.5, 0.25, 0.0}) {
             if (try_with(bend * params_.gain)) {
@@ -173,7 +173,7 @@ public:
     }
 
 private:
-    Meandered with_vertices() {
+    MeanderedNetwork with_vertices() {
         out_.vertices = static_cast<std::int64_t>(stems_.at.size());
         return std::move(out_);
     }
@@ -298,7 +298,7 @@ private:
     Stems stems_;
     std::vector<double> wave_m_; ///< by point: wavelengths, where rivers wander
     std::vector<Vec2> base_;     ///< by point: the last valid positions
-    Meandered out_;
+    MeanderedNetwork out_;
 };
 
 void require_apart(StreamNetwork const& network, Run const& run) {
@@ -318,8 +318,8 @@ void require_apart(StreamNetwork const& network, Run const& run) {
     }
 }
 
-Meandered wandering(StreamNetwork const& network, Grid const& grid, Mask const& land,
-                    std::vector<double> const& area_m2, MeanderParams const& params, Run const& run) {
+MeanderedNetwork wandering(StreamNetwork const& network, Grid const& grid, Mask const& land,
+                           std::vector<double> const& area_m2, MeanderParams const& params, Run const& run) {
     check(network, grid, area_m2, params);
     if (network.arc_count() == 0) {
         return {network, 0, 0, 0, 0.0};
@@ -330,13 +330,13 @@ Meandered wandering(StreamNetwork const& network, Grid const& grid, Mask const& 
 
 } // namespace
 
-Meandered meander(StreamNetwork const& network, Grid const& grid, std::vector<double> const& area_m2,
-                  MeanderParams const& params, Run const& run) {
+MeanderedNetwork meander(StreamNetwork const& network, Grid const& grid, std::vector<double> const& area_m2,
+                         MeanderParams const& params, Run const& run) {
     return wandering(network, grid, {}, area_m2, params, run);
 }
 
-Meandered meander(StreamNetwork const& network, Mask const& land, std::vector<double> const& area_m2,
-                  MeanderParams const& params, Run const& run) {
+MeanderedNetwork meander(StreamNetwork const& network, Mask const& land, std::vector<double> const& area_m2,
+                         MeanderParams const& params, Run const& run) {
     return wandering(network, land.grid(), land, area_m2, params, run);
 }
 

@@ -23,7 +23,7 @@
 // Not for: rivers of a file, whose places are known; physics: bends do not migrate, cut off or
 // leave oxbows. gain = 0 only rounds corners within half a cell.
 // Example:
-//     Meandered const bent = meander(network, grid, area_m2, {.gain = 1.0, .seed = 3});
+//     MeanderedNetwork const bent = meander(network, grid, area_m2, {.gain = 1.0, .seed = 3});
 //     StreamNetwork const& rivers = bent.network; // the same arcs between the same nodes
 
 namespace thalweg::network {
@@ -37,7 +37,7 @@ struct MeanderParams {
 };
 
 /// What meander() returns.
-struct Meandered {
+struct MeanderedNetwork {
     StreamNetwork network;
     std::int64_t rounds = 0;   ///< of reducing bends where rivers came too close
     std::int64_t eased = 0;    ///< vertices with reduced shift
@@ -60,15 +60,15 @@ struct Meandered {
 /// network is not a forest
 ///
 /// Source: wavelengths of 10 to 14 widths, \cite leopold1960.
-Meandered meander(StreamNetwork const& network, Grid const& grid, std::vector<double> const& area_m2,
-                  MeanderParams const& params = {}, Run const& run = {});
+MeanderedNetwork meander(StreamNetwork const& network, Grid const& grid, std::vector<double> const& area_m2,
+                         MeanderParams const& params = {}, Run const& run = {});
 
 /// Makes rivers meander on land: they stay there, and move less the nearer the sea is.
 /// \param network a forest inside the mask's grid; arcs meet only at nodes
 /// \param land 0: sea
 /// \param area_m2 [m2] by arc: drainage area at its lower end
 /// \return as meander on a grid
-Meandered meander(StreamNetwork const& network, Mask const& land, std::vector<double> const& area_m2,
-                  MeanderParams const& params = {}, Run const& run = {});
+MeanderedNetwork meander(StreamNetwork const& network, Mask const& land, std::vector<double> const& area_m2,
+                         MeanderParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::network

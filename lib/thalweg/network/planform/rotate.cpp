@@ -65,12 +65,12 @@ double random_turn(std::uint64_t seed) {
     return words[1] % 2 == 0 ? turn : -turn;
 }
 
-Rotated rotate(StreamNetwork const& network, Grid const& frame, RotateParams const& params) {
+RotatedNetwork rotate(StreamNetwork const& network, Grid const& frame, RotateParams const& params) {
     require_in("network.rotate", "turn_deg", params.turn_deg, Range::between(-180.0, 180.0));
     refuse_if<BadInput>(network.arc_count() == 0,
                         "network.rotate: the network has no arcs; trace or read some rivers first");
     require_trees(network, "network.rotate");
-    Rotated out{{}, frame};
+    RotatedNetwork out{{}, frame};
     NetworkDraft turned = network.draft();
     Vec2 const about = extent_of(turned).middle();
     double const turn = params.turn_deg / 180.0 * portable::pi;

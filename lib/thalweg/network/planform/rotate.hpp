@@ -15,7 +15,7 @@ struct RotateParams {
 };
 
 /// A network and the grid it lies in.
-struct Rotated {
+struct RotatedNetwork {
     StreamNetwork network;
     Grid grid;
 };
@@ -32,6 +32,6 @@ double random_turn(std::uint64_t seed);
 /// \return distances are kept except for coordinates rounded to 1e-6 m; a rotation by 0 only translates
 /// \throws BadParameter when a parameter is outside its range
 /// \throws BadInput for no arcs, a coordinate that is not a number, or a network larger than the grid
-Rotated rotate(StreamNetwork const& network, Grid const& frame, RotateParams const& params = {});
+RotatedNetwork rotate(StreamNetwork const& network, Grid const& frame, RotateParams const& params = {});
 
 } // namespace thalweg::network

@@ -34,7 +34,7 @@ struct TrunkAndTributary {
 };
 
 // The two lines after the tributary was led to a node on the trunk, all drawn as before.
-struct Shifted {
+struct ShiftedLines {
     Line near;      // the trunk's beginning, up to the node
     Line far;       // the rest of the trunk, from the node
     Line tributary; // from the node
@@ -130,7 +130,7 @@ bool is_free(std::array<std::vector<Vec2>, 3> const& drawn, std::vector<Line con
 // own line at the same distance from the point, or half-way if it is shorter. Returns false if the new lines would meet
 // something else or have length 0. Heights are between those of the ends; the node takes the lower of the trunk's and
 // the tributary's.
-bool shift_tributary(TrunkAndTributary const& at, double distance_m, bool round_a_corner, Shifted& shifted) {
+bool shift_tributary(TrunkAndTributary const& at, double distance_m, bool round_a_corner, ShiftedLines& shifted) {
     double const leaving_m = std::min(distance_m, length_in_plan(at.tributary) / 2.0);
     auto node = place_at(at.trunk, distance_m);
     auto const leaving = place_at(at.tributary, leaving_m);
@@ -255,7 +255,7 @@ public:
     }
 
     /// Splits the trunk, whose near part touches the node, and ends the tributary between the parts.
-    void shift(NodeId n, std::size_t trunk, std::size_t tributary, Shifted shifted) {
+    void shift(NodeId n, std::size_t trunk, std::size_t tributary, ShiftedLines shifted) {
         bool const upstream = !leaves(trunk, n);
         ArcId const piece = lines_.size();
         NodeId const node = nodes_.size();
@@ -401,7 +401,7 @@ private:
                 if (along_m < least_m) {
                     continue;
                 }
-                Shifted shifted;
+                ShiftedLines shifted;
                 bool const corner_first = pair.closeness < wide;
                 if (shift_tributary(at, along_m, corner_first, shifted) ||
                     shift_tributary(at, along_m, !corner_first, shifted)) {

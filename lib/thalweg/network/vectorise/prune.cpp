@@ -189,7 +189,7 @@ bool is_corner(Vec2 a, Vec2 b, Vec2 c, double cell_m) {
 
 } // namespace
 
-Pruned prune(StreamNetwork const& network, PruneParams const& params, Run const& run) {
+PrunedNetwork prune(StreamNetwork const& network, PruneParams const& params, Run const& run) {
     require_in("network.prune", "length", params.length_m, Range::at_least(0.0), "m");
     require_in("network.prune", "cell", params.cell_m, Range::above(0.0), "m");
     require_trees(network, "network.prune");
@@ -199,7 +199,7 @@ Pruned prune(StreamNetwork const& network, PruneParams const& params, Run const&
     std::vector<std::int64_t> const units = lengths_in_units(network, params.cell_m);
     std::vector<std::int64_t> const persistence = survival(network, Remains(network, units), run);
 
-    Pruned pruned;
+    PrunedNetwork pruned;
     pruned.arcs_before = static_cast<std::int64_t>(network.arc_count());
     NetworkDraft with_thresholds = network.draft();
     std::vector<std::uint8_t> kept;

@@ -33,7 +33,7 @@ struct PruneParams {
 };
 
 /// What prune() returns.
-struct Pruned {
+struct PrunedNetwork {
     StreamNetwork network; ///< every arc with its persistence
     std::int64_t arcs_before = 0;
 };
@@ -49,7 +49,7 @@ struct Pruned {
 /// \throws BadInput for a network that has no arcs or is not a forest
 ///
 /// Source: \cite cao2009, equation 2, applied to leaves to a fixpoint (specification 0.2).
-Pruned prune(StreamNetwork const& network, PruneParams const& params, Run const& run = {});
+PrunedNetwork prune(StreamNetwork const& network, PruneParams const& params, Run const& run = {});
 
 /// Cuts L-shaped corners of arcs that run from cell to cell, as pruning leaves them at former confluences: D8 flow
 /// takes the diagonal.

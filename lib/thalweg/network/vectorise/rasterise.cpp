@@ -20,7 +20,7 @@ namespace {
 using Step = std::pair<std::int64_t, std::int64_t>;
 
 /// Lowers every cell to the lowest cell upstream: in ascending order of height, no cell is lowered twice.
-void lower_downstream(std::vector<Step> steps, Rasterised& out) {
+void lower_downstream(std::vector<Step> steps, RasterisedRivers& out) {
     std::sort(steps.begin(), steps.end());
     steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
     Raster<float>& z = out.valley.z;
@@ -56,11 +56,11 @@ void lower_downstream(std::vector<Step> steps, Rasterised& out) {
 
 } // namespace
 
-Rasterised rasterise(ElevatedNetwork const& network, Grid const& grid) {
+RasterisedRivers rasterise(ElevatedNetwork const& network, Grid const& grid) {
     refuse_if<BadInput>(network.arc_z.size() != network.planform.arc_count(),
                         "network.rasterise: {} arcs with heights for {}; set the heights again",
                         network.planform.arc_count(), network.arc_z.size());
-    Rasterised out;
+    RasterisedRivers out;
     out.valley.z = Raster<float>(grid, std::numeric_limits<float>::quiet_NaN());
     Raster<float>& z = out.valley.z;
     std::vector<Step> steps;

@@ -18,13 +18,13 @@
 // Not for: flow directions along rivers, and cells that neighbour only their receiver:
 // channels.hpp.
 // Example:
-//     Rasterised const drawn = rasterise(elevated, grid);
+//     RasterisedRivers const drawn = rasterise(elevated, grid);
 //     Valley const& rivers = drawn.valley; // NaN where no river runs
 
 namespace thalweg::network {
 
 /// What rasterise() returns.
-struct Rasterised {
+struct RasterisedRivers {
     Valley valley;
     std::int64_t lowered_cells = 0; ///< cells shared by several reaches, lowered so that each path falls
     double max_lowered_m = 0.0;
@@ -38,7 +38,7 @@ struct Rasterised {
 /// \throws BadInput naming the arc and position of a vertex outside the grid or a height that is not a number
 ///
 /// Source: \cite cao2009, section 3.3; specification 0.3.
-Rasterised rasterise(ElevatedNetwork const& network, Grid const& grid);
+RasterisedRivers rasterise(ElevatedNetwork const& network, Grid const& grid);
 
 /// Converts the heights of rivers to heights of channel cells.
 /// \param network the rivers, with heights

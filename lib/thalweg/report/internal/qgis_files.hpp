@@ -13,6 +13,6 @@ namespace thalweg::report {
 /// (dem.qml ...).
 /// \param out holds every other layer already
 /// \throws IoError
-void write_qgis_files(make::Made const& made, std::string const& title, io::OutputFolder const& out);
+void write_qgis_files(make::MakeResult const& made, std::string const& title, io::OutputFolder const& out);
 
 } // namespace thalweg::report

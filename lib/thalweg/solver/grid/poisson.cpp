@@ -257,7 +257,7 @@ std::vector<CellSpan> unreached(Raster<std::uint8_t> const& kind, Run const& run
     return found;
 }
 
-Contents look_through(GridProblem const& problem, char const* stage, Run const& run) {
+Contents survey_problem(GridProblem const& problem, char const* stage, Run const& run) {
     require_one_frame(problem, stage);
     run.check();
     Contents const all = contents(problem, run);
@@ -339,7 +339,7 @@ double residual_norm(ColouredProblem const& problem, GridRows const& rows, Run c
 
 GridSolution solve_poisson(GridProblem problem, PoissonParams const& params, Run const& run) {
     require(params);
-    Contents const contents = look_through(problem, "solver.solve_poisson", run);
+    Contents const contents = survey_problem(problem, "solver.solve_poisson", run);
     if (run.device == Device::opencl) {
         return solve_poisson_opencl(std::move(problem), contents, params, run);
     }
@@ -363,7 +363,7 @@ GridSolution solve_poisson(GridProblem problem, PoissonParams const& params, Run
 
 GridSolution relax_explicit(GridProblem problem, ExplicitParams const& params, Run const& run) {
     require(problem, params);
-    Contents const contents = look_through(problem, "solver.relax_explicit", run);
+    Contents const contents = survey_problem(problem, "solver.relax_explicit", run);
     refuse_if<BadInput>(contents.unknown > 0,
                         "solver.relax_explicit: {} free cells have no finite value; each needs one to start from",
                         contents.unknown);

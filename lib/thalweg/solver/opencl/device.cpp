@@ -20,7 +20,7 @@ namespace {
 
 constexpr char const* variable = "THALWEG_OPENCL_DEVICE";
 
-struct Found {
+struct FoundDevice {
     cl_device_id id = nullptr;
     cl_platform_id platform = nullptr;
     std::string number; ///< "0:0"
@@ -64,7 +64,7 @@ std::string fault_of(cl_device_id id) {
 }
 
 /// A missing platform is not an error: the list is then empty.
-std::vector<Found> find_devices() {
+std::vector<FoundDevice> find_devices() {
     // PoCL on a processor: its other method for work groups crashes in version 6.0; results are the same.
     setenv("POCL_WORK_GROUP_METHOD", "cbs", 0);
     cl_uint platform_count = 0;
@@ -73,7 +73,7 @@ std::vector<Found> find_devices() {
     }
     std::vector<cl_platform_id> platforms(platform_count);
     clGetPlatformIDs(platform_count, platforms.data(), nullptr);
-    std::vector<Found> all;
+    std::vector<FoundDevice> all;
     for (std::size_t p = 0; p < platforms.size(); ++p) {
         std::string const platform_name = text_of([&](std::size_t size, char* text, std::size_t* needed) {
             clGetPlatformInfo(platforms[p], CL_PLATFORM_NAME, size, text, needed);
@@ -85,7 +85,7 @@ std::vector<Found> find_devices() {
         std::vector<cl_device_id> ids(count);
         clGetDeviceIDs(platforms[p], CL_DEVICE_TYPE_ALL, count, ids.data(), nullptr);
         for (std::size_t d = 0; d < ids.size(); ++d) {
-            Found found;
+            FoundDevice found;
             found.id = ids[d];
             found.platform = platforms[p];
             found.number = fmt::format("{}:{}", p, d);
@@ -101,25 +101,25 @@ std::vector<Found> find_devices() {
     return all;
 }
 
-std::string line_of(Found const& found) {
+std::string line_of(FoundDevice const& found) {
     return fmt::format("{} {} ({}){}", found.number, found.name, found.platform_name,
                        found.fault.empty() ? "" : ": " + found.fault);
 }
 
-std::string lines_of(std::vector<Found> const& all) {
+std::string lines_of(std::vector<FoundDevice> const& all) {
     std::string text;
-    for (Found const& found : all) {
+    for (FoundDevice const& found : all) {
         text += (text.empty() ? "" : "; ") + line_of(found);
     }
     return text;
 }
 
-Found choose(std::vector<Found> const& all) {
+FoundDevice choose(std::vector<FoundDevice> const& all) {
     refuse_if<BadParameter>(all.empty(),
                             "solver.opencl_device: --device opencl: no OpenCL platform with a device was found; "
                             "install an OpenCL driver (Debian: pocl-opencl-icd) or leave --device out");
     if (char const* const wanted = std::getenv(variable); wanted != nullptr) {
-        for (Found const& found : all) {
+        for (FoundDevice const& found : all) {
             if (found.number != wanted) {
                 continue;
             }
@@ -134,7 +134,7 @@ Found choose(std::vector<Found> const& all) {
     }
     for (cl_device_type const type : {cl_device_type{CL_DEVICE_TYPE_GPU}, cl_device_type{CL_DEVICE_TYPE_ACCELERATOR},
                                       cl_device_type{CL_DEVICE_TYPE_CPU}, cl_device_type{CL_DEVICE_TYPE_ALL}}) {
-        for (Found const& found : all) {
+        for (FoundDevice const& found : all) {
             if (found.fault.empty() && (found.type & type) != 0) {
                 return found;
             }
@@ -191,7 +191,7 @@ cl_program program_of(OpenClDevice const& device, std::string const& stage, std:
 
 std::vector<std::string> opencl_devices() {
     std::vector<std::string> lines;
-    for (Found const& found : find_devices()) {
+    for (FoundDevice const& found : find_devices()) {
         lines.push_back(line_of(found));
     }
     return lines;
@@ -205,7 +205,7 @@ OpenClDevice const& opencl_device() {
     static std::mutex one_at_a_time;
     // Never freed: the driver may be unloaded before static destructors run.
     static auto& ready = *new std::map<cl_device_id, OpenClDevice>;
-    Found const found = choose(find_devices());
+    FoundDevice const found = choose(find_devices());
     std::scoped_lock const lock(one_at_a_time);
     if (auto const at = ready.find(found.id); at != ready.end()) {
         return at->second;

@@ -239,11 +239,11 @@ void smooth_free(Raster<std::uint8_t> const& kind, double sigma_cells, Raster<do
     });
 }
 
-Diffused diffuse(Skeleton const& skeleton, DiffuseParams const& params, Run const& run) {
+DiffusedDem diffuse(Skeleton const& skeleton, DiffuseParams const& params, Run const& run) {
     return diffuse(skeleton, Mask(), params, run);
 }
 
-Diffused diffuse(Skeleton const& skeleton, Mask const& inside, DiffuseParams const& params, Run const& run) {
+DiffusedDem diffuse(Skeleton const& skeleton, Mask const& inside, DiffuseParams const& params, Run const& run) {
     require(params);
     auto problem = problem_through(skeleton.z, inside, "surface.diffuse", run);
     Raster<std::uint8_t> const kind = problem.kind;

@@ -23,7 +23,7 @@
 // becomes a smooth bowl or saddle, level beside ridges. Parts of a mask without any skeleton cell
 // stay NaN.
 // Example:
-//     Diffused const land_m = diffuse(skeleton_heights, {.sigma_cells = 1.5, .noise_m = 2.0});
+//     DiffusedDem const land_m = diffuse(skeleton_heights, {.sigma_cells = 1.5, .noise_m = 2.0});
 //     Raster<float> const base = harmonic(valley); // for dilate_over
 // More: docs/rivers.md, "Diffusion".
 
@@ -55,7 +55,7 @@ struct DiffuseParams {
 };
 
 /// What diffuse() returns.
-struct Diffused {
+struct DiffusedDem {
     Raster<float> dem;     ///< [m] NaN outside
     int iterations = 0;    ///< of the solver, or sweeps
     double residual = 0.0; ///< before smoothing, relative to the norm with 0 off the skeleton
@@ -73,8 +73,9 @@ struct Diffused {
 /// \throws NotConverged when the solver does not reach the tolerance
 ///
 /// Source: \cite nenu2015, equations 12 and 13, the latter with its sign corrected; specification 3.7.
-Diffused diffuse(Skeleton const& skeleton, DiffuseParams const& params = {}, Run const& run = {});
-Diffused diffuse(Skeleton const& skeleton, Mask const& inside, DiffuseParams const& params = {}, Run const& run = {});
+DiffusedDem diffuse(Skeleton const& skeleton, DiffuseParams const& params = {}, Run const& run = {});
+DiffusedDem diffuse(Skeleton const& skeleton, Mask const& inside, DiffuseParams const& params = {},
+                    Run const& run = {});
 
 /// Options of harmonic().
 struct HarmonicParams {

@@ -130,7 +130,7 @@ std::vector<double> to_metres(std::vector<double>& dh, double top, double greate
 }
 
 /// The same if every level from 0 to the last occurs.
-std::vector<double> use_increments(Dilated& dilated, double greatest, DilateParams const& params) {
+std::vector<double> use_increments(DilatedDem& dilated, double greatest, DilateParams const& params) {
     dilated.increments = increments(dilated.levels, params.increment);
     std::vector<double> const units = heights_above_valley(dilated.increments);
     std::vector<double> sums = to_metres(dilated.increments, *std::max_element(units.begin(), units.end()), greatest,
@@ -157,16 +157,16 @@ bool surely_drained(std::vector<double> const& used, std::vector<double> const& 
 }
 
 /// Sets flat_share. Every cell is dh above a neighbour, so that flats need to be counted only if dh can vanish.
-void report_flats(Dilated& dilated, Valley const& valley, std::vector<double> const& above_valley, double greatest,
+void report_flats(DilatedDem& dilated, Valley const& valley, std::vector<double> const& above_valley, double greatest,
                   Run const& run) {
     if (!surely_drained(dilated.increments, above_valley, greatest)) {
         dilated.flat_share = flat_share(valley, dilated.dem, run);
     }
 }
 
-template <class Level> Dilated dilate_closed(Valley const& valley, DilateParams const& params, Run const& run) {
+template <class Level> DilatedDem dilate_closed(Valley const& valley, DilateParams const& params, Run const& run) {
     Lanes const lanes = widest_lanes();
-    Dilated dilated;
+    DilatedDem dilated;
     dilated.dem = Raster<float>(valley.z.grid());
     auto const swept = separable::sweep_down<Level>(valley, dilated.dem, lanes, run);
     if (!separable::usable(swept)) {
@@ -183,11 +183,11 @@ template <class Level> Dilated dilate_closed(Valley const& valley, DilateParams 
     return dilated;
 }
 
-Dilated dilate_masked(Valley const& valley, Mask const& inside, DilateParams const& params, Run const& run) {
+DilatedDem dilate_masked(Valley const& valley, Mask const& inside, DilateParams const& params, Run const& run) {
     Expansion expansion = expand_frontier(valley, inside, run);
     run.at(0.8, "dilate");
     Raster<std::int32_t> const& level = expansion.level;
-    Dilated dilated;
+    DilatedDem dilated;
     dilated.dem = std::move(expansion.base);
     dilated.levels = *std::max_element(level.values().begin(), level.values().end());
     double const greatest = greatest_of_valley(dilated.dem);
@@ -217,7 +217,7 @@ double distance_cells(Grid const& grid, std::int64_t from, std::int64_t to) {
     return std::sqrt(static_cast<double>(square));
 }
 
-Dilated dilate_euclid(Valley valley, Mask const& inside, DilateParams const& params, Run const& run) {
+DilatedDem dilate_euclid(Valley valley, Mask const& inside, DilateParams const& params, Run const& run) {
     Grid const grid = valley.z.grid();
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         if (inside[i] == 0) {
@@ -237,7 +237,7 @@ Dilated dilate_euclid(Valley valley, Mask const& inside, DilateParams const& par
             farthest = std::max(farthest, distance_cells(grid, i, nearest[i]));
         }
     }
-    Dilated dilated;
+    DilatedDem dilated;
     dilated.levels = static_cast<std::int64_t>(std::ceil(farthest));
     dilated.increments = increments(dilated.levels, params.increment);
     std::vector<double> const units = heights_above_valley(dilated.increments);
@@ -287,7 +287,7 @@ Valley levelled(Valley const& valley, Raster<float> const& base) {
     return level;
 }
 
-Dilated on_base(Dilated rise, Valley const& valley, Raster<float> const& base, Run const& run) {
+DilatedDem on_base(DilatedDem rise, Valley const& valley, Raster<float> const& base, Run const& run) {
     for (std::int64_t i = 0; i < base.cells(); ++i) {
         float const river = valley.z[i];
         rise.dem[i] = std::isnan(river) || std::isnan(rise.dem[i]) ? base[i] + rise.dem[i] : river;
@@ -298,7 +298,7 @@ Dilated on_base(Dilated rise, Valley const& valley, Raster<float> const& base, R
 
 } // namespace
 
-Dilated dilate(Valley const& valley, DilateParams const& params, Run const& run) {
+DilatedDem dilate(Valley const& valley, DilateParams const& params, Run const& run) {
     Grid const& grid = valley.z.grid();
     check_dilate_params(params);
     check_frame(grid);
@@ -310,7 +310,7 @@ Dilated dilate(Valley const& valley, DilateParams const& params, Run const& run)
                                    : dilate_closed<std::int32_t>(valley, params, run);
 }
 
-Dilated dilate(Valley const& valley, Mask const& inside, DilateParams const& params, Run const& run) {
+DilatedDem dilate(Valley const& valley, Mask const& inside, DilateParams const& params, Run const& run) {
     check_dilate_params(params);
     check_frame(valley.z.grid());
     check_mask(valley.z.grid(), inside.grid());
@@ -378,12 +378,12 @@ Expansion expand(Valley const& valley, Run const& run) {
                                               : expand_as<std::int32_t>(valley, run);
 }
 
-Dilated dilate_over(Valley const& valley, Raster<float> const& base, DilateParams const& params, Run const& run) {
+DilatedDem dilate_over(Valley const& valley, Raster<float> const& base, DilateParams const& params, Run const& run) {
     return on_base(dilate(levelled(valley, base), params, run), valley, base, run);
 }
 
-Dilated dilate_over(Valley const& valley, Raster<float> const& base, Mask const& inside, DilateParams const& params,
-                    Run const& run) {
+DilatedDem dilate_over(Valley const& valley, Raster<float> const& base, Mask const& inside, DilateParams const& params,
+                       Run const& run) {
     return on_base(dilate(levelled(valley, base), inside, params, run), valley, base, run);
 }
 

@@ -25,8 +25,8 @@
 // pits lie where slopes meet: condition the result (flow/condition.hpp), or take equilibrium.hpp.
 // City-block distance makes diamonds around points; Metric::euclid does not.
 // Example:
-//     Dilated const paper = dilate(valley, {.increment = {"uniform"}, .relief_m = 300.0});
-//     Dilated const smooth = dilate_over(valley, harmonic(valley), {.relief_m = 300.0});
+//     DilatedDem const paper = dilate(valley, {.increment = {"uniform"}, .relief_m = 300.0});
+//     DilatedDem const smooth = dilate_over(valley, harmonic(valley), {.relief_m = 300.0});
 // More: docs/rivers.md, "The base of slopes".
 
 namespace thalweg::surface {
@@ -70,7 +70,7 @@ Expansion expand_frontier(Valley const& valley, Mask const& inside, Run const& r
 Expansion expand(Valley const& valley, Run const& run = {});
 
 /// What dilate() returns.
-struct Dilated {
+struct DilatedDem {
     Raster<float> dem;              ///< [m] NaN: not reached
     std::vector<double> increments; ///< [m] dh(x), x = 1 ... levels, as applied
     std::int64_t levels = 0;        ///< largest number of dilations (euclid: largest distance in cells, rounded up)
@@ -89,8 +89,8 @@ struct Dilated {
 /// or heights beyond float
 ///
 /// Source: \cite cao2009, equations 3 and 4, Table 1; specification 0.4.
-Dilated dilate(Valley const& valley, DilateParams const& params = {}, Run const& run = {});
-Dilated dilate(Valley const& valley, Mask const& inside, DilateParams const& params = {}, Run const& run = {});
+DilatedDem dilate(Valley const& valley, DilateParams const& params = {}, Run const& run = {});
+DilatedDem dilate(Valley const& valley, Mask const& inside, DilateParams const& params = {}, Run const& run = {});
 
 /// Builds the surface E = base + H(d), whose slopes rise from a base surface instead of from valley cells. With
 /// `inside` as dilate.
@@ -102,9 +102,9 @@ Dilated dilate(Valley const& valley, Mask const& inside, DilateParams const& par
 /// \throws BadInput when the base has another frame
 ///
 /// Source: specification 0.4, base = harmonic.
-Dilated dilate_over(Valley const& valley, Raster<float> const& base, DilateParams const& params = {},
-                    Run const& run = {});
-Dilated dilate_over(Valley const& valley, Raster<float> const& base, Mask const& inside,
-                    DilateParams const& params = {}, Run const& run = {});
+DilatedDem dilate_over(Valley const& valley, Raster<float> const& base, DilateParams const& params = {},
+                       Run const& run = {});
+DilatedDem dilate_over(Valley const& valley, Raster<float> const& base, Mask const& inside,
+                       DilateParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::surface

@@ -18,13 +18,13 @@
 namespace thalweg::surface {
 namespace {
 
-struct Named {
+struct NamedIncrement {
     std::string_view name;
     double (*at)(double x);
 };
 
 // Hundredths are divided once, so that each value is the double nearest to the paper's.
-constexpr std::array<Named, 3> table_1{{
+constexpr std::array<NamedIncrement, 3> table_1{{
     {"uniform", [](double) { return 0.1; }},
     {"decreasing", [](double x) { return x < 300.0 ? (300.0 - x) / 100.0 : 0.0; }},
     {"rise_fall", [](double x) { return x <= 150.0 ? 3.0 * x / 100.0 : (600.0 - x) / 100.0; }},
@@ -115,8 +115,9 @@ std::vector<double> tabulate(std::string const& text, std::int64_t levels) {
     }
 }
 
-Named const* in_table_1(std::string const& name) {
-    auto const named = std::find_if(table_1.begin(), table_1.end(), [&](Named const& row) { return row.name == name; });
+NamedIncrement const* in_table_1(std::string const& name) {
+    auto const named =
+        std::find_if(table_1.begin(), table_1.end(), [&](NamedIncrement const& row) { return row.name == name; });
     return named == table_1.end() ? nullptr : &*named;
 }
 
@@ -124,7 +125,7 @@ std::vector<double> signed_increments(std::int64_t levels, IncrementParams const
     if (params.function) {
         return values_of(params.function, "the function", "one", levels);
     }
-    Named const* const named = in_table_1(params.increment);
+    NamedIncrement const* const named = in_table_1(params.increment);
     if (named == nullptr) {
         return tabulate(params.increment, levels);
     }
@@ -209,7 +210,7 @@ std::vector<double> heights_above_valley(std::vector<double> const& increments) 
 
 std::vector<std::string> increment_names() {
     std::vector<std::string> names;
-    for (Named const& named : table_1) {
+    for (NamedIncrement const& named : table_1) {
         names.emplace_back(named.name);
     }
     return names;

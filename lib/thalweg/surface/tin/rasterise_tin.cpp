@@ -254,12 +254,12 @@ void fetch(Tin const& tin, std::size_t triangle) {
 }
 
 // The triangles of each band, by number.
-struct Binned {
+struct TriangleBands {
     std::vector<std::size_t> begin; // by band, and the end
     std::vector<std::uint32_t> triangles;
 };
 
-Binned bin(Tin const& tin, Grid const& grid, Run const& run) {
+TriangleBands bin(Tin const& tin, Grid const& grid, Run const& run) {
     auto const count = static_cast<std::int64_t>(tin.triangles.size());
     std::vector<Bands> bands(tin.triangles.size());
     parallel_ranges(run, count, 1 << 14, [&](std::int64_t begin, std::int64_t end) {
@@ -270,7 +270,7 @@ Binned bin(Tin const& tin, Grid const& grid, Run const& run) {
             bands[i] = bands_of(std::min(std::min(y[0], y[1]), y[2]), std::max(std::max(y[0], y[1]), y[2]), grid);
         }
     });
-    Binned binned;
+    TriangleBands binned;
     binned.begin.assign(static_cast<std::size_t>((grid.height + band_rows - 1) / band_rows) + 1, 0);
     for (Bands const& b : bands) {
         for (std::int32_t k = b.first; k <= b.last; ++k) {
@@ -542,7 +542,7 @@ Raster<float> rasterise_tin(Tin const& tin, Grid const& grid, RasteriseTinParams
     }
     Centres const centres(grid);
     double const reach = reach_of(tin, grid);
-    Binned const binned = bin(tin, grid, run);
+    TriangleBands const binned = bin(tin, grid, run);
     // One band per call: its content must not depend on how bands are distributed.
     parallel_ranges(run, static_cast<std::int64_t>(binned.begin.size()) - 1, 1, [&](std::int64_t b, std::int64_t e) {
         for (std::int64_t k = b; k < e; ++k) {

@@ -29,12 +29,12 @@ public:
 };
 
 /// While an object lives, GDAL opens only files in the folder of this file, and its own tables, on this thread.
-class Confined {
+class ConfinedFolder {
 public:
-    explicit Confined(std::string const& path);
-    ~Confined();
-    Confined(Confined const&) = delete;
-    Confined& operator=(Confined const&) = delete;
+    explicit ConfinedFolder(std::string const& path);
+    ~ConfinedFolder();
+    ConfinedFolder(ConfinedFolder const&) = delete;
+    ConfinedFolder& operator=(ConfinedFolder const&) = delete;
 
 private:
     std::thread::id thread_;

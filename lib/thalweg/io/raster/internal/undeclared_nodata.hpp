@@ -45,7 +45,8 @@ public:
     /// Processes the next row: stored values, NaN: declared as no-data.
     void add_row(std::span<double const> stored);
     /// Call it once, after the last row. what: "io.read_dem: FILE". Throws BadInput naming the value, its first cell
-    /// and the remedy. \return the doubt about cells of 0, if there is one
+    /// and the remedy.
+    /// \return the doubt about cells of 0, if there is one
     std::optional<Finding> require_none(std::string const& what, std::string const& path);
 
 private:

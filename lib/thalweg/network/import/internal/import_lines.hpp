@@ -167,15 +167,16 @@ std::vector<Evidence> evidence_of(Pieces const& p, std::vector<RiverLine>& lines
                                   Orientation asked, std::vector<Finding>& repairs);
 
 /// The pieces that are not in the network, and the known directions of all.
-struct Divided {
+struct DividedPieces {
     std::vector<char const*> reason; ///< by piece: why it is secondary; null: it is not
     std::vector<int> runs;           ///< by piece: 1: as drawn, -1: against it, 0: unknown
 };
 
 /// Keeps the main path at every bifurcation, and removes the pieces of other branches from pieces.at_node, which
 /// becomes a forest. evidence: the most trusted first. drawn: by piece, 1 or -1: its direction if nothing is certain.
-Divided divide(Pieces& pieces, std::vector<RiverLine> const& lines, RiverLines const& file, Orientation orientation,
-               std::vector<Evidence> const& evidence, std::vector<int> const& drawn, Run const& run);
+DividedPieces divide(Pieces& pieces, std::vector<RiverLine> const& lines, RiverLines const& file,
+                     Orientation orientation, std::vector<Evidence> const& evidence, std::vector<int> const& drawn,
+                     Run const& run);
 
 /// Finds the piece that leaves each node; no_piece: an outlet. The network flows along pieces towards outlets. pieces:
 /// a forest; evidence, drawn: as for divide().
@@ -185,14 +186,14 @@ std::vector<PieceId> orient(Pieces const& pieces, std::vector<RiverLine> const& 
                             std::vector<int> const& drawn);
 
 /// Removes parts of the network fed by a minor channel alone: from there down to the next node with another inflow.
-void drop_unfed(Pieces& pieces, Divided& divided, std::vector<PieceId>& leaves);
+void drop_unfed(Pieces& pieces, DividedPieces& divided, std::vector<PieceId>& leaves);
 
 /// Reports the lines that run against their drawn direction.
 void report_turned(Pieces const& p, std::vector<RiverLine> const& lines, std::vector<PieceId> const& leaves,
                    std::vector<Finding>& repairs);
 
 /// The secondary pieces as lines, each with a finding.
-std::vector<SecondaryLine> secondary_lines(Pieces const& pieces, Divided const& divided,
+std::vector<SecondaryLine> secondary_lines(Pieces const& pieces, DividedPieces const& divided,
                                            std::vector<RiverLine> const& lines, std::vector<Finding>& repairs);
 
 std::size_t other_end(Piece const& piece, std::size_t node);

@@ -191,7 +191,7 @@ struct Contents {
 /// \param stage "module.verb" for messages
 /// \throws BadInput naming a cell: a part with free cells and no fixed one, or a value or source that is not finite;
 /// rasters of different frames
-Contents look_through(GridProblem const& problem, char const* stage, Run const& run);
+Contents survey_problem(GridProblem const& problem, char const* stage, Run const& run);
 
 /// A problem in colour order.
 struct ColouredProblem {

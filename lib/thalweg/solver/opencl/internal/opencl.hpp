@@ -13,7 +13,7 @@ namespace thalweg::solver {
 /// solve_poisson on the OpenCL device. At a tolerance of 1e-10 heights up to 1000 m differ from the processor's by less
 /// than 1e-6 m; the same device gives the same bits each time. Memory on the device: 90 bytes a cell.
 /// \param problem a problem
-/// \param contents result of look_through for it
+/// \param contents result of survey_problem for it
 /// \return as solve_poisson; fixed cells bit for bit
 /// \throws NotConverged as solve_poisson
 /// \throws BadParameter as opencl_device_name()

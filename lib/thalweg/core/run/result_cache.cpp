@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/core/run/kept.hpp>
+#include <thalweg/core/run/result_cache.hpp>
 
 #include <algorithm>
 
 namespace thalweg {
 
-std::shared_ptr<void const> Kept::find(std::string const& made_from) {
+std::shared_ptr<void const> ResultCache::find(std::string const& key) {
     std::scoped_lock const lock(guard_);
-    auto const found = std::ranges::find(results_, made_from, &One::made_from);
+    auto const found = std::ranges::find(results_, key, &Entry::key);
     if (found == results_.end()) {
         return nullptr;
     }
@@ -16,9 +16,9 @@ std::shared_ptr<void const> Kept::find(std::string const& made_from) {
     return results_.front().result;
 }
 
-void Kept::keep(std::string made_from, std::shared_ptr<void const> result, std::int64_t bytes) {
+void ResultCache::keep(std::string key, std::shared_ptr<void const> result, std::int64_t bytes) {
     std::scoped_lock const lock(guard_);
-    results_.push_front({std::move(made_from), std::move(result), bytes});
+    results_.push_front({std::move(key), std::move(result), bytes});
     bytes_ += bytes;
     while (bytes_ > most_ && results_.size() > 1) {
         bytes_ -= results_.back().bytes;
@@ -26,7 +26,7 @@ void Kept::keep(std::string made_from, std::shared_ptr<void const> result, std::
     }
 }
 
-std::int64_t Kept::bytes() const {
+std::int64_t ResultCache::bytes() const {
     std::scoped_lock const lock(guard_);
     return bytes_;
 }
