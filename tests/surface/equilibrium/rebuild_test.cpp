@@ -15,7 +15,8 @@
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/route.hpp>
-#include <thalweg/surface/equilibrium/internal/steps.hpp>
+#include <thalweg/surface/equilibrium/internal/land.hpp>
+#include <thalweg/surface/equilibrium/internal/rebuild_steps.hpp>
 
 #include "channel_trees.hpp"
 

@@ -13,8 +13,10 @@
 
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/random.hpp>
+#include <thalweg/surface/equilibrium/internal/land.hpp>
 #include <thalweg/surface/equilibrium/internal/level.hpp>
-#include <thalweg/surface/equilibrium/internal/steps.hpp>
+#include <thalweg/surface/equilibrium/internal/river_cells.hpp>
+#include <thalweg/surface/equilibrium/internal/start_level.hpp>
 
 #include "channel_trees.hpp"
 

@@ -11,7 +11,14 @@
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/core/same_grid.hpp>
-#include <thalweg/surface/equilibrium/internal/steps.hpp>
+#include <thalweg/surface/equilibrium/internal/erodibility.hpp>
+#include <thalweg/surface/equilibrium/internal/extract_terrain.hpp>
+#include <thalweg/surface/equilibrium/internal/given_rivers.hpp>
+#include <thalweg/surface/equilibrium/internal/known_features.hpp>
+#include <thalweg/surface/equilibrium/internal/land.hpp>
+#include <thalweg/surface/equilibrium/internal/region.hpp>
+#include <thalweg/surface/equilibrium/internal/river_cells.hpp>
+#include <thalweg/surface/equilibrium/internal/start_level.hpp>
 #include <thalweg/surface/uplift/uplift_pattern.hpp>
 
 // Described in docs/algorithms/equilibrium_levels.md.
@@ -368,7 +375,7 @@ private:
     std::vector<std::int64_t> shortened_;
 };
 
-struct Solved {
+struct EquilibriumSolution {
     TerrainLevel level;
     std::vector<std::int64_t> shortened;
     std::int64_t margin = 0;
@@ -396,8 +403,8 @@ bool shows_terrain(TerrainLevel const& level, Grid const& grid) {
 
 /// Solves all levels; rivers' heights are in solver units, or free.
 /// \param conversion of prescribed heights; null: none are
-Solved solved(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
-              HeightConversion const* conversion, Run const& run) {
+EquilibriumSolution solved(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
+                           HeightConversion const* conversion, Run const& run) {
     PaddedTerrain land = padded(rivers, fields, params);
     Region const region = region_around(rivers, fields, params);
     std::vector<LevelInput> levels = level_inputs(land, region, rivers.grid, params.seed);
@@ -478,13 +485,13 @@ float base_of(Channels const& rivers, Edge edge) {
 }
 
 /// Terrain solved around prescribed heights, and the metres of the solver's unit.
-struct Held {
-    Solved land;
+struct ScaledSolution {
+    EquilibriumSolution land;
     double metres = 0.0;
 };
 
-Held solved_terrain(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
-                    double metres, Run const& run) {
+ScaledSolution solved_terrain(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
+                              double metres, Run const& run) {
     Channels drawn = rivers;
     double const base_m = base_of(rivers, params.edge);
     for (std::vector<float>* heights : {&drawn.z, &drawn.lake_z}) {
@@ -499,24 +506,24 @@ Held solved_terrain(Channels const& rivers, EquilibriumFields const& fields, Equ
 /// Solves again with other metres per unit until the terrain reaches its target; returns the closest solution.
 /// \param solve the terrain for metres per unit
 template <class Solve>
-Held terrain_at_target(Grid const& grid, Mask const& land, EquilibriumParams const& params, double metres,
-                       Run const& run, Solve solve_with) {
+ScaledSolution terrain_at_target(Grid const& grid, Mask const& land, EquilibriumParams const& params, double metres,
+                                 Run const& run, Solve solve_with) {
     constexpr int most_solves = 6;
     constexpr double near_enough = 0.01;
-    constexpr double widest = 2.0;              // [log] of one step
-    auto const off_by = [&](Held const& held) { // [log]
+    constexpr double widest = 2.0;                        // [log] of one step
+    auto const off_by = [&](ScaledSolution const& held) { // [log]
         Window const window{grid, land, held.land.margin};
         double const share = share_of_target(held.land.level, window, held.metres, params, run);
         return portable::log(std::max(share, 1e-6));
     };
-    Held best = solve_with(metres);
+    ScaledSolution best = solve_with(metres);
     double best_off = off_by(best);
     double at = portable::log(metres);
     double off = best_off;
     double step = -1.5 * off;
     for (int solve = 1; solve < most_solves && std::fabs(best_off) > near_enough; ++solve) {
         step = std::clamp(step, -widest, widest);
-        Held next = solve_with(portable::exp(at + step));
+        ScaledSolution next = solve_with(portable::exp(at + step));
         double const next_off = off_by(next);
         double const per_step = (next_off - off) / step;
         at += step;
@@ -585,7 +592,7 @@ private:
 };
 
 /// Terrain around graded rivers, with the levels of lakes that they have.
-EquilibriumTerrain graded_terrain(Solved&& land, Channels const& rivers, EquilibriumFields const& fields,
+EquilibriumTerrain graded_terrain(EquilibriumSolution&& land, Channels const& rivers, EquilibriumFields const& fields,
                                   EquilibriumParams const& params, HeightConversion const& raise, Run const& run) {
     Window const window{rivers.grid, fields.land, land.margin};
     EquilibriumTerrain out =
@@ -598,18 +605,19 @@ EquilibriumTerrain graded_terrain(Solved&& land, Channels const& rivers, Equilib
 
 /// \param without the terrain without levels, and the conversion of its heights
 EquilibriumTerrain terrain_with_levels(Channels const& rivers, EquilibriumFields const& fields,
-                                       EquilibriumParams const& params, Solved&& without, HeightConversion const& raise,
-                                       Run const& run) {
+                                       EquilibriumParams const& params, EquilibriumSolution&& without,
+                                       HeightConversion const& raise, Run const& run) {
     RiversWithLevels const lakes(rivers, without.level, raise);
     without = {};
     double const least = least_metres(rivers, 0.0);
     auto const solve = [&](double wanted) {
         double const metres = std::max(wanted, least);
         HeightConversion const conversion = lakes.conversion(metres);
-        return Held{solved(lakes.in_units(metres), fields, params, &conversion, run), metres};
+        return ScaledSolution{solved(lakes.in_units(metres), fields, params, &conversion, run), metres};
     };
-    Held held = params.bring_to_target ? terrain_at_target(rivers.grid, fields.land, params, raise.metres, run, solve)
-                                       : solve(raise.metres);
+    ScaledSolution held = params.bring_to_target
+                              ? terrain_at_target(rivers.grid, fields.land, params, raise.metres, run, solve)
+                              : solve(raise.metres);
     return graded_terrain(std::move(held.land), lakes.in_metres(held.metres), fields, params,
                           lakes.conversion(held.metres), run);
 }
@@ -623,8 +631,9 @@ EquilibriumTerrain terrain_with_heights(Channels const& rivers, EquilibriumField
     auto const solve = [&](double metres) {
         return solved_terrain(rivers, fields, params, std::max(metres, least), run);
     };
-    Held held = params.bring_to_target ? terrain_at_target(rivers.grid, fields.land, params, raise.metres, run, solve)
-                                       : solve(raise.metres);
+    ScaledSolution held = params.bring_to_target
+                              ? terrain_at_target(rivers.grid, fields.land, params, raise.metres, run, solve)
+                              : solve(raise.metres);
     HeightConversion const given{held.metres, static_cast<double>(base_of(rivers, params.edge)), raise.mean_tangent};
     Window const window{rivers.grid, fields.land, held.land.margin};
     EquilibriumTerrain land =
@@ -646,7 +655,7 @@ EquilibriumTerrain balanced(Channels const& rivers, EquilibriumFields const& fie
     wanted.heights = is_asked ? params.heights : RiverHeights::graded;
     Run quiet = run; // heights that are prescribed are not in the first solution
     quiet.preview = is_asked || by_lakes ? nullptr : run.preview;
-    Solved graded = solved(drawn, fields, wanted, nullptr, quiet);
+    EquilibriumSolution graded = solved(drawn, fields, wanted, nullptr, quiet);
     Window const window{rivers.grid, fields.land, graded.margin};
     run.check();
     HeightConversion const raise = height_conversion_for(graded.level, rivers, window, params, run);

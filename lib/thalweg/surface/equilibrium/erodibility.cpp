@@ -3,7 +3,10 @@
 
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/lanes.hpp>
-#include <thalweg/surface/equilibrium/internal/steps.hpp>
+#include <thalweg/surface/equilibrium/internal/erodibility.hpp>
+#include <thalweg/surface/equilibrium/internal/known_features.hpp>
+#include <thalweg/surface/equilibrium/internal/rebuild_steps.hpp>
+#include <thalweg/surface/equilibrium/internal/river_cells.hpp>
 
 // Described in docs/algorithms/equilibrium_levels.md.
 

@@ -8,7 +8,9 @@
 
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/surface/equilibrium/features.hpp>
-#include <thalweg/surface/equilibrium/internal/steps.hpp>
+#include <thalweg/surface/equilibrium/internal/known_features.hpp>
+#include <thalweg/surface/equilibrium/internal/land.hpp>
+#include <thalweg/surface/equilibrium/internal/rebuild_steps.hpp>
 
 // Described in docs/rebuild.md.
 

@@ -6,7 +6,9 @@
 
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/lanes.hpp>
-#include <thalweg/surface/equilibrium/internal/steps.hpp>
+#include <thalweg/surface/equilibrium/internal/known_features.hpp>
+#include <thalweg/surface/equilibrium/internal/land.hpp>
+#include <thalweg/surface/equilibrium/internal/start_level.hpp>
 
 // Described in docs/algorithms/equilibrium_levels.md.
 

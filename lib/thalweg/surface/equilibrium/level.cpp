@@ -5,7 +5,8 @@
 #include <utility>
 
 #include <thalweg/core/numbers/random.hpp>
-#include <thalweg/surface/equilibrium/internal/steps.hpp>
+#include <thalweg/surface/equilibrium/internal/region.hpp>
+#include <thalweg/surface/equilibrium/internal/start_level.hpp>
 
 // Described in docs/algorithms/equilibrium_levels.md.
 
@@ -93,9 +94,9 @@ Cell exit_step(Grid const& grid, Cell c) {
     return {c.col == 0 ? -1 : 1, 0};
 }
 
-class Carried {
+class CarriedChannels {
 public:
-    Carried(Channels const& given, std::int64_t margin)
+    CarriedChannels(Channels const& given, std::int64_t margin)
         : given_(given), margin_(margin), width_(given.grid.width + 2 * margin + 2) {}
 
     RiverCells all() {
@@ -403,7 +404,7 @@ PaddedTerrain padded(Channels const& rivers, EquilibriumFields const& fields, Eq
     std::int64_t const margin = goes_on(params.edge) ? open_margin : 0;
     return {grown(rivers.grid, margin),
             margin,
-            Carried(rivers, margin).all(),
+            CarriedChannels(rivers, margin).all(),
             grown(fields.land, margin),
             {relative(fields.uplift, fields.land), relative(fields.erodibility, fields.land)}};
 }

@@ -5,7 +5,13 @@
 
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/parameters.hpp>
-#include <thalweg/surface/equilibrium/internal/steps.hpp>
+#include <thalweg/surface/equilibrium/internal/erodibility.hpp>
+#include <thalweg/surface/equilibrium/internal/extract_terrain.hpp>
+#include <thalweg/surface/equilibrium/internal/given_rivers.hpp>
+#include <thalweg/surface/equilibrium/internal/known_features.hpp>
+#include <thalweg/surface/equilibrium/internal/land.hpp>
+#include <thalweg/surface/equilibrium/internal/rebuild_steps.hpp>
+#include <thalweg/surface/equilibrium/internal/start_level.hpp>
 #include <thalweg/surface/equilibrium/rebuild.hpp>
 
 // Described in docs/rebuild.md.

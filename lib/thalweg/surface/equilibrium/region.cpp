@@ -3,7 +3,8 @@
 #include <map>
 
 #include <thalweg/core/numbers/random.hpp>
-#include <thalweg/surface/equilibrium/internal/steps.hpp>
+#include <thalweg/surface/equilibrium/internal/region.hpp>
+#include <thalweg/surface/equilibrium/internal/start_level.hpp>
 
 // Described in docs/algorithms/equilibrium_levels.md.
 

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include <thalweg/surface/equilibrium/internal/steps.hpp>
+#include <thalweg/surface/equilibrium/internal/river_cells.hpp>
 
 // Described in docs/algorithms/equilibrium_levels.md.
 

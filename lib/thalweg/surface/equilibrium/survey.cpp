@@ -6,7 +6,11 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/refuse.hpp>
-#include <thalweg/surface/equilibrium/internal/steps.hpp>
+#include <thalweg/surface/equilibrium/internal/known_features.hpp>
+#include <thalweg/surface/equilibrium/internal/land.hpp>
+#include <thalweg/surface/equilibrium/internal/rebuild_steps.hpp>
+#include <thalweg/surface/equilibrium/internal/river_cells.hpp>
+#include <thalweg/surface/equilibrium/internal/start_level.hpp>
 #include <thalweg/surface/equilibrium/rebuild.hpp>
 
 // Described in docs/rebuild.md.
