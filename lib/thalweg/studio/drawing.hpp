@@ -193,8 +193,8 @@ struct Drawn {
 /// meet. A new ridge keeps 1.5 cells from rivers: its ends are cut off there.
 /// \return the drawing after it; what the step does not touch stays bit for bit
 /// \throws NotDrawn where rivers would cross, come too near, flow in a circle or out of another one, where a ridge
-/// would cross a river, for pins in rivers, in the sea and in one cell, and for numbers of what is not there \throws
-/// BadParameter for a type or lambda that is none, and heights beyond [-12000, 30000] m
+/// would cross a river, for pins in rivers, in the sea and in one cell, and for numbers of what is not there
+/// \throws BadParameter for a type or lambda that is none, and heights beyond [-12000, 30000] m
 Drawn drawn(Drawing drawing, DrawStep const& step);
 
 /// \return the rivers that flow into one, directly or through others; ascending, without itself
