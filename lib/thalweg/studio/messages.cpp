@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <map>
 #include <utility>
 #include <vector>
@@ -93,93 +94,44 @@ public:
     StepReader(ordered_json what, Grid const& grid) : what_(std::move(what)), grid_(grid) {}
 
     DrawStep step() const {
+        using R = StepReader;
+        static constexpr std::pair<char const*, DrawStep (R::*)() const> verbs[] = {
+            {"river", &R::river}, {"move", &R::move},         {"insert", &R::insert},       {"remove", &R::remove},
+            {"cut", &R::cut},     {"join", &R::join},         {"reverse", &R::reverse},     {"erase", &R::erase},
+            {"type", &R::type},   {"lambda", &R::set_lambda}, {"branching", &R::branching}, {"coast", &R::coast},
+            {"swap", &R::swap},   {"lake", &R::lake},         {"level", &R::level},         {"mask", &R::mask},
+            {"pin", &R::pin},     {"height", &R::set_height}, {"ridge", &R::ridge},         {"heights", &R::heights},
+            {"clear", &R::clear}};
         std::string const verb = text_at(what_, "verb");
-        auto const found = std::ranges::find(verbs(), verb, &Verb::name);
+        auto const found = std::ranges::find_if(verbs, [&](auto const& one) { return one.first == verb; });
         std::vector<std::string> names;
-        for (Verb const& one : verbs()) {
-            names.emplace_back(one.name);
-        }
-        refuse_if<BadInput>(found == verbs().end(), "studio.request: verb is one of {}", fmt::join(names, ", "));
-        return found->read(*this);
+        std::ranges::transform(verbs, std::back_inserter(names), [](auto const& one) { return one.first; });
+        refuse_if<BadInput>(found == std::end(verbs), "studio.request: verb is one of {}", fmt::join(names, ", "));
+        return (this->*found->second)();
     }
 
 private:
-    struct Verb {
-        std::string_view name;
-        DrawStep (*read)(StepReader const&);
-    };
-
-    static std::vector<Verb> const& verbs() {
-        using R = StepReader;
-        static std::vector<Verb> const all{
-            {"river",
-             [](R const& r) -> DrawStep {
-                 return DrawRiver{r.line(), r.text("type"), r.lambda()};
-             }},
-            {"move",
-             [](R const& r) -> DrawStep {
-                 return MoveVertex{r.part(), index(r.what_, "vertex"), r.place("to"), r.reach()};
-             }},
-            {"insert",
-             [](R const& r) -> DrawStep {
-                 return InsertVertex{r.part(), index(r.what_, "vertex"), r.place("at")};
-             }},
-            {"remove",
-             [](R const& r) -> DrawStep {
-                 return RemoveVertex{r.part(), index(r.what_, "vertex")};
-             }},
-            {"cut",
-             [](R const& r) -> DrawStep {
-                 return CutRiver{index(r.what_, "river"), r.place("at")};
-             }},
-            {"join",
-             [](R const& r) -> DrawStep {
-                 return JoinRiver{index(r.what_, "river"), r.text("end") == "source", r.place("at")};
-             }},
-            {"reverse", [](R const& r) -> DrawStep { return ReverseRiver{index(r.what_, "river")}; }},
-            {"erase",
-             [](R const& r) -> DrawStep {
-                 return Erase{r.erased(), r.yes("alone")};
-             }},
-            {"type",
-             [](R const& r) -> DrawStep {
-                 return SetType{r.rivers(), r.text("type")};
-             }},
-            {"lambda",
-             [](R const& r) -> DrawStep {
-                 return SetLambda{r.rivers(), r.lambda()};
-             }},
-            {"branching", [](R const& r) -> DrawStep { return SetSideStreams{r.yes("on")}; }},
-            {"coast", [](R const& r) -> DrawStep { return DrawCoast{r.line()}; }},
-            {"swap", [](R const& r) -> DrawStep { return SwapSides{index(r.what_, "coast")}; }},
-            {"lake",
-             [](R const& r) -> DrawStep {
-                 return DrawLake{r.line(), r.metres_or_none("level")};
-             }},
-            {"level",
-             [](R const& r) -> DrawStep {
-                 return SetLevel{index(r.what_, "lake"), r.metres_or_none("level")};
-             }},
-            {"mask", [](R const& r) -> DrawStep { return DrawMask{r.line()}; }},
-            {"pin",
-             [](R const& r) -> DrawStep {
-                 return DrawPin{r.place("at"), r.height()};
-             }},
-            {"height",
-             [](R const& r) -> DrawStep {
-                 return SetHeight{index(r.what_, "pin"), r.height()};
-             }},
-            {"ridge",
-             [](R const& r) -> DrawStep {
-                 return DrawRidge{r.line(), r.metres_or_none("from"), r.metres_or_none("to")};
-             }},
-            {"heights",
-             [](R const& r) -> DrawStep {
-                 return SetRidgeHeights{index(r.what_, "ridge"), r.metres_or_none("from"), r.metres_or_none("to")};
-             }},
-            {"clear", [](R const&) -> DrawStep { return Clear{}; }}};
-        return all;
-    }
+    DrawStep river() const { return DrawRiver{line(), text("type"), lambda()}; }
+    DrawStep move() const { return MoveVertex{part(), index("vertex"), place("to"), reach()}; }
+    DrawStep insert() const { return InsertVertex{part(), index("vertex"), place("at")}; }
+    DrawStep remove() const { return RemoveVertex{part(), index("vertex")}; }
+    DrawStep cut() const { return CutRiver{index("river"), place("at")}; }
+    DrawStep join() const { return JoinRiver{index("river"), text("end") == "source", place("at")}; }
+    DrawStep reverse() const { return ReverseRiver{index("river")}; }
+    DrawStep erase() const { return Erase{part_in(what_), yes("alone")}; }
+    DrawStep type() const { return SetType{rivers(), text("type")}; }
+    DrawStep set_lambda() const { return SetLambda{rivers(), lambda()}; }
+    DrawStep branching() const { return SetSideStreams{yes("on")}; }
+    DrawStep coast() const { return DrawCoast{line()}; }
+    DrawStep swap() const { return SwapSides{index("coast")}; }
+    DrawStep lake() const { return DrawLake{line(), metres_or_none("level")}; }
+    DrawStep level() const { return SetLevel{index("lake"), metres_or_none("level")}; }
+    DrawStep mask() const { return DrawMask{line()}; }
+    DrawStep pin() const { return DrawPin{place("at"), height()}; }
+    DrawStep set_height() const { return SetHeight{index("pin"), height()}; }
+    DrawStep ridge() const { return DrawRidge{line(), metres_or_none("from"), metres_or_none("to")}; }
+    DrawStep heights() const { return SetRidgeHeights{index("ridge"), metres_or_none("from"), metres_or_none("to")}; }
+    DrawStep clear() const { return Clear{}; } // NOLINT(readability-convert-member-functions-to-static): in the table
 
     static std::size_t index(ordered_json const& of, char const* name) {
         auto const found = of.find(name);
@@ -188,6 +140,7 @@ private:
         refuse_if<BadInput>(!is_one, "studio.request: {} must be a number from 0", name);
         return found->get<std::size_t>();
     }
+    std::size_t index(char const* name) const { return index(what_, name); }
 
     static double number(ordered_json const& value) {
         refuse_if<BadInput>(!value.is_number(), "studio.request: a place is made of numbers");
@@ -218,7 +171,7 @@ private:
     bool yes(char const* name) const { return what_.value(name, ordered_json(false)) == true; }
     int lambda() const {
         constexpr std::size_t most = 1000;
-        return what_.contains("lambda") ? static_cast<int>(std::min(index(what_, "lambda"), most)) : 0;
+        return what_.contains("lambda") ? static_cast<int>(std::min(index("lambda"), most)) : 0;
     }
     double reach() const {
         return what_.contains("reach") ? std::max(0.0, number(what_["reach"])) * grid_.cell_m : 0.0;
@@ -254,7 +207,6 @@ private:
         return {kind->second, index(of, kind->first)};
     }
     Part part() const { return part_in(what_.value("of", ordered_json::object())); }
-    Part erased() const { return part_in(what_); }
 
     ordered_json what_;
     Grid const& grid_;
