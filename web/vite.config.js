@@ -8,8 +8,10 @@ import { viteSingleFile } from 'vite-plugin-singlefile';
 /** Only the page's own script and style run: the policy names them by their hashes. */
 function contentPolicy(name, connects, more) {
   const hash = (text) => `'sha256-${createHash('sha256').update(text).digest('base64')}'`;
-  const hashes = (html, tag) => [...html.matchAll(new RegExp(`<${tag}(?![^>]*application/json|[^>]*text/plain)[^>]*>(.*?)</${tag}>`, 'gs'))]
-    .map((match) => hash(match[1])).join(' ');
+  const hashes = (html, tag) =>
+    [...html.matchAll(new RegExp(`<${tag}(?![^>]*application/json|[^>]*text/plain)[^>]*>(.*?)</${tag}>`, 'gs'))]
+      .map((match) => hash(match[1]))
+      .join(' ');
   return {
     name: 'content-policy',
     enforce: 'post',
@@ -17,9 +19,13 @@ function contentPolicy(name, connects, more) {
       order: 'post',
       handler(_, bundle) {
         const page = bundle[name];
-        page.source = page.source.replace('<!--@@POLICY@@-->', () =>
-          `<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src ${hashes(page.source, 'script')}; ` +
-          `style-src ${hashes(page.source, 'style')}; img-src data: blob:; connect-src ${connects}; ${more}base-uri 'none'; form-action 'none'">`);
+        page.source = page.source.replace(
+          '<!--@@POLICY@@-->',
+          () =>
+            `<meta http-equiv="Content-Security-Policy" content="default-src 'none'; ` +
+            `script-src ${hashes(page.source, 'script')}; style-src ${hashes(page.source, 'style')}; ` +
+            `img-src data: blob:; connect-src ${connects}; ${more}base-uri 'none'; form-action 'none'">`,
+        );
       },
     },
   };
@@ -34,8 +40,13 @@ function maplibreInside() {
     resolveId: (id) => (id === 'maplibre-worker' ? `\0${id}` : null),
     load(id) {
       if (id !== '\0maplibre-worker') return null;
-      const script = maplibre('dist/maplibre-gl-worker.mjs').replace(/export\s*\{[^}]*\};?\s*(\/\/# sourceMappingURL=\S+\s*)?$/, '');
-      if (/\bexport\s*[{*]/.test(script.slice(-200))) throw new Error('the worker of maplibre-gl still exports something');
+      const script = maplibre('dist/maplibre-gl-worker.mjs').replace(
+        /export\s*\{[^}]*\};?\s*(\/\/# sourceMappingURL=\S+\s*)?$/,
+        '',
+      );
+      if (/\bexport\s*[{*]/.test(script.slice(-200))) {
+        throw new Error('the worker of maplibre-gl still exports something');
+      }
       return `export default ${JSON.stringify(script)};`;
     },
     transformIndexHtml: (html) => html.replace('<!--@@LICENCE@@-->', () =>

@@ -26,8 +26,15 @@ function logarithmic(values) {
   const decades = Math.log10(high / low);
   const powers = Array.from({ length: Math.ceil(decades) + 1 }, (_, i) => 10 ** (Math.floor(Math.log10(low)) + i));
   const within = (t) => t >= low && t <= high;
-  const round = [[1], [1, 2, 5]].map((steps) => powers.flatMap((power) => steps.map((step) => step * power)).filter(within));
-  return { low, high, ticks: round.find((ticks) => ticks.length > 1) ?? [...new Set(ends)], share: (v) => Math.log10(v / low) / decades };
+  const round = [[1], [1, 2, 5]].map((steps) =>
+    powers.flatMap((power) => steps.map((step) => step * power)).filter(within),
+  );
+  return {
+    low,
+    high,
+    ticks: round.find((ticks) => ticks.length > 1) ?? [...new Set(ends)],
+    share: (v) => Math.log10(v / low) / decades,
+  };
 }
 
 function scale(values, { log, whole, least }) {
@@ -41,7 +48,9 @@ function scale(values, { log, whole, least }) {
   }
   const step = whole ? 1 : roundBelow((high - low) / least);
   const ticks = [];
-  for (let t = Math.ceil(low / step - 1e-9) * step; t <= high + 1e-9 * step; t += step) ticks.push(Math.abs(t) < 1e-9 * step ? 0 : t);
+  for (let t = Math.ceil(low / step - 1e-9) * step; t <= high + 1e-9 * step; t += step) {
+    ticks.push(Math.abs(t) < 1e-9 * step ? 0 : t);
+  }
   if (whole) {
     low -= 0.3;
     high += 0.3;
@@ -60,15 +69,36 @@ function tick(value, log) {
 export function layOut(series, what, width) {
   const points = series.flatMap((s) => s.points.concat(s.fit ?? []));
   const height = what.height ?? 150;
-  const y = scale(points.map((p) => p[1]).filter(Number.isFinite).concat(what.zeroY ? [0] : [], what.topY ?? []), { log: what.logY, least: what.least ?? 3 });
-  const x = scale(points.map((p) => p[0]).concat(what.zeroX ? [0] : []), { log: what.logX, whole: what.wholeX, least: what.least ?? (width < 240 ? 2 : 4) });
+  const y = scale(
+    points
+      .map((p) => p[1])
+      .filter(Number.isFinite)
+      .concat(what.zeroY ? [0] : [], what.topY ?? []),
+    { log: what.logY, least: what.least ?? 3 },
+  );
+  const x = scale(points.map((p) => p[0]).concat(what.zeroX ? [0] : []), {
+    log: what.logX,
+    whole: what.wholeX,
+    least: what.least ?? (width < 240 ? 2 : 4),
+  });
   const widest = Math.max(...y.ticks.map((t) => tick(t, what.logY).length));
   const box = { left: 10 + 6 * widest, top: 22, right: width - 10, bottom: height - 32 };
-  const place = ([a, b]) => [box.left + x.share(a) * (box.right - box.left), box.bottom - y.share(b) * (box.bottom - box.top)];
+  const place = ([a, b]) => [
+    box.left + x.share(a) * (box.right - box.left),
+    box.bottom - y.share(b) * (box.bottom - box.top),
+  ];
   return { x, y, box, place, width, height };
 }
 
-const path = (points, place) => points.map((p, i) => `${i ? 'L' : 'M'}${place(p).map((v) => v.toFixed(1)).join(' ')}`).join('');
+const path = (points, place) =>
+  points
+    .map(
+      (p, i) =>
+        `${i ? 'L' : 'M'}${place(p)
+          .map((v) => v.toFixed(1))
+          .join(' ')}`,
+    )
+    .join('');
 
 /** Points between gaps. */
 function runs(points) {
@@ -118,12 +148,14 @@ function strokes(s, { y, place }) {
  * all: [{points: [[x, y], …], name, kind: 'line' | 'area' | 'points', fit: [[x, y], …], tone: 0 | 1 | 2,
  * of lines also 3 | 'dem'}]; those without a point are not shown, and where a y is NaN a line has a gap. what: {title,
  * x, y (with their units, in brackets), logX, logY, wholeX, zeroX, zeroY, topY: what y reaches at least, height, least:
- * steps of each axis at least, flags: [[x, y], …] places with a sign above them, note(index): a further word of a reading, onread(index or
- * null): what is told of it}. An index is that of a point of the first series, from the left.
+ * steps of each axis at least, flags: [[x, y], …] places with a sign above them, note(index): a further word of a
+ * reading, onread(index or null): what is told of it}. An index is that of a point of the first series, from the left.
  * Gives {figure, read(index or null)}; a reading by `read` is not told.
  */
 export function plot(all, what) {
-  const series = all.map((s, k) => ({ tone: k, ...s, points: [...s.points].sort((a, b) => a[0] - b[0]) })).filter((s) => s.points.some((p) => Number.isFinite(p[1])));
+  const series = all
+    .map((s, k) => ({ tone: k, ...s, points: [...s.points].sort((a, b) => a[0] - b[0]) }))
+    .filter((s) => s.points.some((p) => Number.isFinite(p[1])));
   const figure = make('figure', {}, make('figcaption', { textContent: what.title }));
   if (!series.length) {
     figure.append(make('p', { className: 'hint', textContent: 'nothing to show' }));
@@ -140,7 +172,9 @@ export function plot(all, what) {
   function paint(width) {
     laid = layOut(series, what, width);
     hair = draw('g', { class: 'hair' });
-    const flags = (what.flags ?? []).map(laid.place).map(([x, y]) => draw('path', { class: 'flag', d: `M${x.toFixed(1)} ${(y - 4).toFixed(1)}l-4.5-8h9Z` }));
+    const flags = (what.flags ?? [])
+      .map(laid.place)
+      .map(([x, y]) => draw('path', { class: 'flag', d: `M${x.toFixed(1)} ${(y - 4).toFixed(1)}l-4.5-8h9Z` }));
     field.querySelector('svg')?.remove();
     field.prepend(draw('svg', { width, height: laid.height, 'aria-hidden': 'true' }, ...axes(laid, what),
       ...series.flatMap((s) => strokes(s, laid)), ...flags, hair));
@@ -151,9 +185,14 @@ export function plot(all, what) {
     return points.reduce((best, p, i) => (off(p) < off(points[best]) ? i : best), 0);
   };
   /** What all series have at a point of the first. */
-  const beside = (index) => series.map((s) => s.points[s === first ? index : nearest(s, laid.x.share(first.points[index][0]))]);
-  const words = (index) => [withUnit(first.points[index][0], what.x),
-    ...beside(index).map((p, k) => (series.length > 1 ? `${series[k].name} ` : '') + withUnit(p[1], what.y)), what.note?.(index)].filter(Boolean);
+  const beside = (index) =>
+    series.map((s) => s.points[s === first ? index : nearest(s, laid.x.share(first.points[index][0]))]);
+  const words = (index) =>
+    [
+      withUnit(first.points[index][0], what.x),
+      ...beside(index).map((p, k) => (series.length > 1 ? `${series[k].name} ` : '') + withUnit(p[1], what.y)),
+      what.note?.(index),
+    ].filter(Boolean);
 
   function read(index) {
     now = index;
@@ -162,7 +201,10 @@ export function plot(all, what) {
     if (index === null) return;
     const places = beside(index).map(laid.place);
     const [x] = places[0];
-    hair.append(draw('line', { x1: x, x2: x, y1: laid.box.top, y2: laid.box.bottom }), ...places.filter(([, y]) => Number.isFinite(y)).map(([cx, cy]) => draw('circle', { cx, cy, r: 3 })));
+    hair.append(
+      draw('line', { x1: x, x2: x, y1: laid.box.top, y2: laid.box.bottom }),
+      ...places.filter(([, y]) => Number.isFinite(y)).map(([cx, cy]) => draw('circle', { cx, cy, r: 3 })),
+    );
     tip.replaceChildren(...words(index).map((text) => make('span', { textContent: text })));
     const right = x > laid.width / 2;
     tip.style.left = right ? 'auto' : `${x + 8}px`;
@@ -179,22 +221,42 @@ export function plot(all, what) {
   }
 
   paint(what.small ? 170 : 356);
-  new ResizeObserver(([{ contentRect: { width } }]) => width > 0 && Math.abs(width - laid.width) > 0.5 && paint(width)).observe(field);
+  new ResizeObserver(
+    ([
+      {
+        contentRect: { width },
+      },
+    ]) => width > 0 && Math.abs(width - laid.width) > 0.5 && paint(width),
+  ).observe(field);
   // A slider is what a reader of charts by keyboard moves along them.
   const last = first.points.length - 1;
   const range = ({ low, high }) => `from ${number(low)} to ${number(high)}`;
-  Object.entries({ role: 'slider', 'aria-label': `${what.title}: ${what.y}, ${range(laid.y)}, against ${what.x}, ${range(laid.x)}`,
-    'aria-valuemin': 0, 'aria-valuemax': last }).forEach(([key, text]) => field.setAttribute(key, text));
+  Object.entries({
+    role: 'slider',
+    'aria-label': `${what.title}: ${what.y}, ${range(laid.y)}, against ${what.x}, ${range(laid.x)}`,
+    'aria-valuemin': 0,
+    'aria-valuemax': last,
+  }).forEach(([key, text]) => field.setAttribute(key, text));
   value(0);
   field.addEventListener('pointermove', (event) => {
     const at = event.clientX - field.getBoundingClientRect().left;
     tell(nearest(first, (at - laid.box.left) / (laid.box.right - laid.box.left)));
   });
-  field.addEventListener('pointerleave', (event) => event.pointerType !== 'touch' && tell(null)); // a finger leaves when it rests
+  // a finger leaves when it rests
+  field.addEventListener('pointerleave', (event) => event.pointerType !== 'touch' && tell(null));
   field.addEventListener('blur', () => tell(null));
   field.addEventListener('keydown', (event) => {
     const page = Math.max(1, Math.round(last / 10));
-    const by = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -page, PageUp: page, Home: -last, End: last }[event.key];
+    const by = {
+      ArrowLeft: -1,
+      ArrowDown: -1,
+      ArrowRight: 1,
+      ArrowUp: 1,
+      PageDown: -page,
+      PageUp: page,
+      Home: -last,
+      End: last,
+    }[event.key];
     if (event.key === 'Escape') tell(null);
     else if (by) tell(now === null && Math.abs(by) === 1 ? 0 : Math.min(last, Math.max(0, (now ?? 0) + by)));
     else return;

@@ -42,7 +42,15 @@ export function clusterPicture(choices, choose) {
       }
     }
     const side = Math.max(1, box.c1 - box.c0 + 1, box.r1 - box.r0 + 1);
-    return { bytes, width, height, side, c0: (box.c0 + box.c1 + 1 - side) / 2, r0: (box.r0 + box.r1 + 1 - side) / 2, largest: arms[size.indexOf(Math.max(...size.slice(0, 4)))] };
+    return {
+      bytes,
+      width,
+      height,
+      side,
+      c0: (box.c0 + box.c1 + 1 - side) / 2,
+      r0: (box.r0 + box.r1 + 1 - side) / 2,
+      largest: arms[size.indexOf(Math.max(...size.slice(0, 4)))],
+    };
   }
 
   function draw() {
@@ -58,8 +66,16 @@ export function clusterPicture(choices, choose) {
       for (let x = 0; x < pixels; ++x) {
         const most = [0, 0, 0, 0, 0];
         let seen = 0;
-        for (let r = Math.floor(r0 + y * per); r < Math.max(Math.floor(r0 + y * per) + 1, r0 + (y + 1) * per); r += step) {
-          for (let c = Math.floor(c0 + x * per); c < Math.max(Math.floor(c0 + x * per) + 1, c0 + (x + 1) * per); c += step) {
+        for (
+          let r = Math.floor(r0 + y * per);
+          r < Math.max(Math.floor(r0 + y * per) + 1, r0 + (y + 1) * per);
+          r += step
+        ) {
+          for (
+            let c = Math.floor(c0 + x * per);
+            c < Math.max(Math.floor(c0 + x * per) + 1, c0 + (x + 1) * per);
+            c += step
+          ) {
             ++seen;
             const arm = r >= 0 && c >= 0 && r < height && c < width ? bytes[r * width + c] : 0;
             if (arm) ++most[arm - 1];

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the drawing tools share: the drawing, what of it is chosen, what was sent and not answered yet, and how far things
-// lie from the pointer on the screen.
+// What the drawing tools share: the drawing, what of it is chosen, what was sent and not answered yet, and how far
+// things lie from the pointer on the screen.
 import { number } from './chart.js';
 import { Drawing, lengthOf } from './drawing.js';
 import { foot } from './rivers.js';
@@ -73,8 +73,9 @@ export class Desk {
   }
 
   /**
-   * Sends what was drawn, after all that was sent before; objects it speaks of are found again in the drawing as it is by then.
-   * what: an object, or a function (same: finds an object again) that gives one. ghost: what is shown until it is there.
+   * Sends what was drawn, after all that was sent before; objects it speaks of are found again in the drawing as it is
+   * by then. what: an object, or a function (same: finds an object again) that gives one. ghost: what is shown until it
+   * is there.
    */
   send(what, ghost = null) {
     return new Promise((resolve) => {
@@ -122,7 +123,11 @@ export class Desk {
         if (!now) throw new Error('it has changed meanwhile: try again');
         return now;
       };
-      const reply = await this.ask({ do: 'draw', revision: drawing.revision, what: typeof what === 'function' ? what(same) : what });
+      const reply = await this.ask({
+        do: 'draw',
+        revision: drawing.revision,
+        what: typeof what === 'function' ? what(same) : what,
+      });
       await this.#freshness();
       this.#forget(ghost);
       if (reply.said?.length) this.ontell(reply.said.join('; '), {});
@@ -183,7 +188,9 @@ export class Desk {
     const { width, height, cell_m } = this.drawing.grid;
     const close = 1e-6 * cell_m + 1;
     if (Math.min(x, y, width - x, height - y) < close) return 'leaves at the border';
-    return this.drawing.nearest({ x, y }, close, ({ kind }) => kind === 'coast') ? 'ends at the coast' : 'ends on the land';
+    return this.drawing.nearest({ x, y }, close, ({ kind }) => kind === 'coast')
+      ? 'ends at the coast'
+      : 'ends on the land';
   }
 
   /** Takes away the chosen vertex, else all that is chosen; alone: a river without those that drain into it. */
@@ -193,13 +200,22 @@ export class Desk {
     const { kind, closed } = chosen;
     if (vertex >= 0 && kind !== 'pin') {
       const line = [...chosen.line.slice(0, 2 * vertex), ...chosen.line.slice(2 * vertex + 2)];
-      this.send((same) => ({ verb: 'remove', of: { [kind]: same(chosen).n }, vertex }), { kind, closed, line, hides: [chosen] });
+      this.send((same) => ({ verb: 'remove', of: { [kind]: same(chosen).n }, vertex }), {
+        kind,
+        closed,
+        line,
+        hides: [chosen],
+      });
       this.chosen = this.drawing.like(chosen, line);
       this.vertex = -1;
       return;
     }
     const hides = kind === 'river' && !alone ? this.drawing.above(chosen) : [chosen];
-    this.send((same) => ({ verb: 'erase', [kind]: same(chosen).n, ...(kind === 'river' ? { alone } : {}) }), { kind, line: [], hides });
+    this.send((same) => ({ verb: 'erase', [kind]: same(chosen).n, ...(kind === 'river' ? { alone } : {}) }), {
+      kind,
+      line: [],
+      hides,
+    });
     this.choose(null);
     this.speak(`${nameOf(chosen)} is erased`);
   }
@@ -231,7 +247,10 @@ export class Desk {
     return at;
   }
 
-  /** What a line that ends here would meet within so many pixels: {kind: 'river' | 'coast' | 'border', object, x, y}, or null. */
+  /**
+   * What a line that ends here would meet within so many pixels: {kind: 'river' | 'coast' | 'border', object, x, y}, or
+   * null.
+   */
   snap(at, kinds, { pixels = 12, except = null } = {}) {
     const reach = pixels * this.scale(at);
     for (const kind of ['river', 'coast']) {
@@ -240,12 +259,16 @@ export class Desk {
       if (!found) continue;
       const { line } = found.object;
       // An end of a river draws more than what lies between.
-      const end = kind === 'river' && [[line[0], line[1]], line.slice(-2)].find(([x, y]) => Math.hypot(x - at.x, y - at.y) < reach);
+      const end =
+        kind === 'river' &&
+        [[line[0], line[1]], line.slice(-2)].find(([x, y]) => Math.hypot(x - at.x, y - at.y) < reach);
       return end ? { kind, object: found.object, x: end[0], y: end[1], end: true } : { kind, ...found };
     }
     if (!kinds.includes('border')) return null;
     const { width, height } = this.drawing.grid;
-    const sides = [[0, 0, width, 0], [width, 0, width, height], [width, height, 0, height], [0, height, 0, 0]].map((side) => foot(at.x, at.y, ...side));
+    const sides = [[0, 0, width, 0], [width, 0, width, height], [width, height, 0, height], [0, height, 0, 0]].map(
+      (side) => foot(at.x, at.y, ...side),
+    );
     const side = sides.reduce((least, one) => (one.d < least.d ? one : least));
     return side.d < reach ? { kind: 'border', object: null, x: side.x, y: side.y } : null;
   }
@@ -261,12 +284,19 @@ export class Desk {
     this.cursor = { x: hold(x + by * (right * c - up * s), width), y: hold(y - by * (right * s + up * c), height) };
     const seen = this.view.place(this.cursor.x, this.cursor.y);
     const { clientWidth, clientHeight } = this.view.parent;
-    if (!seen || seen.x < 20 || seen.y < 20 || seen.x > clientWidth - 20 || seen.y > clientHeight - 20) this.view.move({ right: Math.sign(right) * 0.1, up: Math.sign(up) * 0.1 });
+    if (!seen || seen.x < 20 || seen.y < 20 || seen.x > clientWidth - 20 || seen.y > clientHeight - 20) {
+      this.view.move({ right: Math.sign(right) * 0.1, up: Math.sign(up) * 0.1 });
+    }
     return this.cursor;
   }
 
   #middle() {
     const { clientWidth, clientHeight } = this.view.parent;
-    return this.view.under(clientWidth / 2, clientHeight / 2) ?? { x: this.drawing.grid.width / 2, y: this.drawing.grid.height / 2 };
+    return (
+      this.view.under(clientWidth / 2, clientHeight / 2) ?? {
+        x: this.drawing.grid.width / 2,
+        y: this.drawing.grid.height / 2,
+      }
+    );
   }
 }

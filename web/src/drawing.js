@@ -23,12 +23,19 @@ export function lengthOf(line) {
 export function inside(x, y, ring) {
   let is = false;
   for (let i = 0, j = ring.length - 2; i < ring.length; j = i, i += 2) {
-    if (ring[i + 1] > y !== ring[j + 1] > y && x < ring[i] + ((y - ring[i + 1]) / (ring[j + 1] - ring[i + 1])) * (ring[j] - ring[i])) is = !is;
+    if (
+      ring[i + 1] > y !== ring[j + 1] > y &&
+      x < ring[i] + ((y - ring[i + 1]) / (ring[j + 1] - ring[i + 1])) * (ring[j] - ring[i])
+    ) {
+      is = !is;
+    }
   }
   return is;
 }
 
-/** A line whose vertex went to a place; its neighbours within reach [cells] along the line follow, the less the farther. */
+/**
+ * A line whose vertex went to a place; its neighbours within reach [cells] along the line follow, the less the farther.
+ */
 export function bent(line, vertex, to, reach, closed) {
   const next = Array.from(line);
   const count = line.length / 2;
@@ -65,8 +72,14 @@ class Tiles {
   /** What lies beside the grid, as masks and lakes of files may far, counts to the tiles at its edge. */
   *#over(x0, y0, x1, y1) {
     const within = (v, most) => Math.min(Math.max(Math.floor(v / this.side), 0), most - 1);
-    const [r1, c0, c1] = [within(Math.max(y0, y1), this.rows), within(Math.min(x0, x1), this.columns), within(Math.max(x0, x1), this.columns)];
-    for (let r = within(Math.min(y0, y1), this.rows); r <= r1; ++r) for (let c = c0; c <= c1; ++c) yield r * this.columns + c;
+    const [r1, c0, c1] = [
+      within(Math.max(y0, y1), this.rows),
+      within(Math.min(x0, x1), this.columns),
+      within(Math.max(x0, x1), this.columns),
+    ];
+    for (let r = within(Math.min(y0, y1), this.rows); r <= r1; ++r) {
+      for (let c = c0; c <= c1; ++c) yield r * this.columns + c;
+    }
   }
 
   add(object, i, line) {
@@ -86,8 +99,9 @@ class Tiles {
 }
 
 /**
- * The program's message `drawing` as objects: {kind: 'river' | 'coast' | 'lake' | 'mask' | 'pin' | 'ridge', n: its number, line: vertices,
- * outline: the same, closed where it is a ring (a pin is a ring of one vertex), closed, and of the message what else there is}.
+ * The program's message `drawing` as objects: {kind: 'river' | 'coast' | 'lake' | 'mask' | 'pin' | 'ridge', n: its
+ * number, line: vertices, outline: the same, closed where it is a ring (a pin is a ring of one vertex), closed, and of
+ * the message what else there is}.
  */
 export class Drawing {
   #tiles = null;
@@ -101,12 +115,28 @@ export class Drawing {
       const closed = line.length > 6 && line[0] === line.at(-2) && line[1] === line.at(-1);
       return closed ? { line: line.slice(0, -2), outline: line, closed } : { line, outline: line, closed };
     };
-    this.rivers = rivers.map(({ line, type, lambda }, n) => ({ kind: 'river', n, line, outline: line, closed: false, type, lambda }));
+    this.rivers = rivers.map(({ line, type, lambda }, n) => ({
+      kind: 'river',
+      n,
+      line,
+      outline: line,
+      closed: false,
+      type,
+      lambda,
+    }));
     this.coasts = coasts.map((line, n) => ({ kind: 'coast', n, ...coast(line) }));
     this.lakes = lakes.map((lake, n) => ({ kind: 'lake', n, ...ring(lake.ring), level: lake.level }));
     this.masks = masks.map((line, n) => ({ kind: 'mask', n, ...ring(line) }));
     this.pins = pins.map(({ at, height }, n) => ({ kind: 'pin', n, ...ring(at), height }));
-    this.ridges = ridges.map(({ line, from, to }, n) => ({ kind: 'ridge', n, line, outline: line, closed: false, from, to }));
+    this.ridges = ridges.map(({ line, from, to }, n) => ({
+      kind: 'ridge',
+      n,
+      line,
+      outline: line,
+      closed: false,
+      from,
+      to,
+    }));
     this.objects = [...this.rivers, ...this.ridges, ...this.coasts, ...this.lakes, ...this.masks, ...this.pins];
   }
 
@@ -118,11 +148,16 @@ export class Drawing {
     if (this.#tiles) return this.#tiles;
     const side = Math.max(8, Math.max(this.grid.width, this.grid.height) / 128);
     this.#tiles = new Tiles(side, Math.ceil(this.grid.width / side) + 2, Math.ceil(this.grid.height / side) + 2);
-    for (const object of this.objects) for (let i = 2; i < object.outline.length; i += 2) this.#tiles.add(object, i, object.outline);
+    for (const object of this.objects) {
+      for (let i = 2; i < object.outline.length; i += 2) this.#tiles.add(object, i, object.outline);
+    }
     return this.#tiles;
   }
 
-  /** The nearest place of an object that is accepted, within reach [cells]: {object, i: vertex after it, x, y, d}, or null. */
+  /**
+   * The nearest place of an object that is accepted, within reach [cells]: {object, i: vertex after it, x, y, d}, or
+   * null.
+   */
   nearest({ x, y }, reach, accept = () => true) {
     let found = null;
     this.tiles.about(x - reach, y - reach, x + reach, y + reach, (object, i) => {
@@ -182,21 +217,30 @@ export class Drawing {
     return { ...object, line, outline: object.closed ? [...line, line[0], line[1]] : line };
   }
 
-  /** What an object of an older drawing is in this one: the same line, or where asked for the one most like it; null: it is gone. */
+  /**
+   * What an object of an older drawing is in this one: the same line, or where asked for the one most like it; null: it
+   * is gone.
+   */
   same(object, alike = false) {
     const all = this[`${object.kind}s`];
     // What the page made of a step differs from what the program made by less than it rounds.
     const { line } = object;
-    const exact = [all[object.n], ...all].find((one) => one && one.line.length === line.length && one.line.every((v, i) => Math.abs(v - line[i]) < 2e-3));
+    const exact = [all[object.n], ...all].find(
+      (one) => one && one.line.length === line.length && one.line.every((v, i) => Math.abs(v - line[i]) < 2e-3),
+    );
     if (exact || !alike) return exact ?? null;
-    const spots = (line) => [line.slice(0, 2), line.slice(2 * Math.floor(line.length / 4)), line.slice(-2)];
-    const off = (all, others) => all.reduce((sum, [x, y], i) => sum + Math.hypot(x - others[i][0], y - others[i][1]), 0);
+    const spots = (ends) => [ends.slice(0, 2), ends.slice(2 * Math.floor(ends.length / 4)), ends.slice(-2)];
+    const off = (some, others) =>
+      some.reduce((sum, [x, y], i) => sum + Math.hypot(x - others[i][0], y - others[i][1]), 0);
     const wanted = spots(object.line);
-    const unlike = ({ line }) => Math.min(off(spots(line), wanted), off(spots(line).reverse(), wanted));
+    const unlike = (one) => Math.min(off(spots(one.line), wanted), off(spots(one.line).reverse(), wanted));
     const best = all.reduce((least, one) => (unlike(one) < (least ? unlike(least) : Infinity) ? one : least), null);
     if (best && unlike(best) < 0.15 * (lengthOf(object.line) + 10)) return best;
     // It may be a piece of a longer one now.
     const middle = 2 * Math.floor(object.line.length / 4);
-    return this.nearest({ x: object.line[middle], y: object.line[middle + 1] }, 1, ({ kind }) => kind === object.kind)?.object ?? null;
+    return (
+      this.nearest({ x: object.line[middle], y: object.line[middle + 1] }, 1, ({ kind }) => kind === object.kind)
+        ?.object ?? null
+    );
   }
 }

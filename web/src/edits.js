@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tools that change what is drawn: it is chosen, its vertices are moved, rivers are cut and joined.
 import { nameOf } from './desk.js';
-import { bent, inside, lengthOf } from './drawing.js';
+import { bent, inside } from './drawing.js';
 import { apart, near, round, Tool } from './hand.js';
 import { dot, ink, orange, peg, red } from './overlay.js';
 
@@ -142,7 +142,14 @@ export class Join extends Pointing {
 
   draw(pen, place) {
     const { overlay } = this;
-    if (this.#taken && this.tip) overlay.stroke(pen, place, [this.#end.x, this.#end.y, (this.#target ?? this.tip).x, (this.#target ?? this.tip).y], { colour: orange });
+    if (this.#taken && this.tip) {
+      overlay.stroke(
+        pen,
+        place,
+        [this.#end.x, this.#end.y, (this.#target ?? this.tip).x, (this.#target ?? this.tip).y],
+        { colour: orange },
+      );
+    }
     overlay.ring(pen, place, this.#end);
     overlay.ring(pen, place, this.#target);
     super.draw(pen, place);
@@ -217,14 +224,27 @@ export class Select extends Tool {
   }
 
   #handleAt(px, reach) {
-    return this.#handles().map((h) => ({ ...h, d: apart(h, px) })).filter(({ d }) => d <= reach).sort((a, b) => a.d - b.d)[0] ?? null;
+    return (
+      this.#handles()
+        .map((h) => ({ ...h, d: apart(h, px) }))
+        .filter(({ d }) => d <= reach)
+        .sort((a, b) => a.d - b.d)[0] ?? null
+    );
   }
 
   #hit(at, pixels) {
     const { desk } = this;
     const { drawing, chosen } = desk;
     const reach = pixels * desk.scale(at);
-    for (const accept of [({ kind }) => kind === 'pin', (one) => one === chosen, ({ kind }) => kind === 'river', ({ kind }) => kind === 'ridge', ({ kind }) => kind === 'coast', ({ kind }) => kind === 'lake', ({ kind }) => kind === 'mask']) {
+    for (const accept of [
+      ({ kind }) => kind === 'pin',
+      (one) => one === chosen,
+      ({ kind }) => kind === 'river',
+      ({ kind }) => kind === 'ridge',
+      ({ kind }) => kind === 'coast',
+      ({ kind }) => kind === 'lake',
+      ({ kind }) => kind === 'mask',
+    ]) {
       const found = drawing.nearest(at, reach, accept);
       if (found) return found;
     }
@@ -289,7 +309,11 @@ export class Select extends Tool {
     this.#beside = null;
     if (this.#grab(at, px, event.pointerType === 'touch' ? 18 : 10)) return true;
     this.#beside = px;
-    this.view.canvas.addEventListener('pointerup', (end) => this.#beside && apart(this.#beside, desk.pixel(end)) < 4 && desk.choose(null), { once: true });
+    this.view.canvas.addEventListener(
+      'pointerup',
+      (end) => this.#beside && apart(this.#beside, desk.pixel(end)) < 4 && desk.choose(null),
+      { once: true },
+    );
     return false;
   }
 
@@ -300,13 +324,20 @@ export class Select extends Tool {
     const { object, vertex } = drag;
     const last = object.line.length / 2 - 1;
     const end = vertex !== undefined && !object.closed && (vertex === 0 || vertex === last);
-    drag.target = end ? this.desk.snap(at, { river: ['river', 'coast', 'border'], coast: ['border'] }[object.kind] ?? [], { pixels: near, except: object }) : null;
+    drag.target = end
+      ? this.desk.snap(at, { river: ['river', 'coast', 'border'], coast: ['border'] }[object.kind] ?? [], {
+          pixels: near,
+          except: object,
+        })
+      : null;
     drag.to = drag.target ?? at;
   }
 
   move(at, event) {
     const px = this.desk.pixel(event);
-    if (this.#drag && (this.#drag.moved || apart(px, this.#drag.px) >= 4)) this.#moved(at ?? this.desk.edge(this.#drag.px, px));
+    if (this.#drag && (this.#drag.moved || apart(px, this.#drag.px) >= 4)) {
+      this.#moved(at ?? this.desk.edge(this.#drag.px, px));
+    }
   }
 
   up() {
@@ -359,8 +390,11 @@ export class Select extends Tool {
 
   press(at) {
     const p = this.view.place(at.x, at.y);
-    if (this.#drag) this.#put();
-    else if (!p || !this.#grab(at, p, 10)) this.desk.choose(null);
+    if (this.#drag) {
+      this.#put();
+      return;
+    }
+    if (!p || !this.#grab(at, p, 10)) this.desk.choose(null);
     else if (this.#drag) this.desk.speak(this.#drag.insert === undefined ? 'picked up' : 'a new vertex is picked up');
   }
 
@@ -395,7 +429,11 @@ export class Select extends Tool {
     const { desk, overlay } = this;
     const drag = this.#drag;
     if (drag && (drag.moved || drag.insert !== undefined)) {
-      overlay.stroke(pen, place, this.#shape(drag), { closed: drag.object.closed, colour: orange, arrows: drag.object.kind === 'river' });
+      overlay.stroke(pen, place, this.#shape(drag), {
+        closed: drag.object.closed,
+        colour: orange,
+        arrows: drag.object.kind === 'river',
+      });
       overlay.ring(pen, place, drag.target);
       const p = place(drag.to.x, drag.to.y);
       if (p) dot(pen, p, 5, { fill: orange, stroke: '#fff' });

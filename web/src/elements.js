@@ -29,9 +29,15 @@ export function fold(head, ...children) {
 
 /** rows: [[cell, …], …]; the first cell of a row names it; all are text or nodes. */
 export function table(heads, rows, label) {
-  const head = make('tr', {}, ...heads.map((text, i) => make(text ? 'th' : 'td', { className: i ? 'n' : '', textContent: text })));
+  const head = make(
+    'tr',
+    {},
+    ...heads.map((text, i) => make(text ? 'th' : 'td', { className: i ? 'n' : '', textContent: text })),
+  );
   for (const th of head.querySelectorAll('th')) th.scope = 'col';
-  const body = rows.map(([name, ...cells]) => make('tr', {}, make('th', { scope: 'row' }, name), ...cells.map((cell) => make('td', { className: 'n' }, cell))));
+  const body = rows.map(([name, ...cells]) =>
+    make('tr', {}, make('th', { scope: 'row' }, name), ...cells.map((cell) => make('td', { className: 'n' }, cell))),
+  );
   const t = make('table', {}, make('thead', {}, head), make('tbody', {}, ...body));
   t.setAttribute('aria-label', label);
   return t;
@@ -48,7 +54,11 @@ export function sign(text, words, className) {
 /** Which mark is whose: [[name, mark], …]. */
 export function legend(marks, { wide } = {}) {
   const box = wide ? { class: 'mark wide', viewBox: '-12 -6 24 12' } : { class: 'mark', viewBox: '-6 -6 12 12' };
-  return make('p', { className: 'marks' }, ...marks.map(([name, mark]) => make('span', {}, draw('svg', { ...box, 'aria-hidden': 'true' }, mark), name)));
+  return make(
+    'p',
+    { className: 'marks' },
+    ...marks.map(([name, mark]) => make('span', {}, draw('svg', { ...box, 'aria-hidden': 'true' }, mark), name)),
+  );
 }
 
 /** The marks of series, no two of the same form: a filled circle, a ring, a diamond. */

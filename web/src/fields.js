@@ -31,8 +31,14 @@ export function scale({ type, low, high, standard }) {
   if (linear) {
     const rough = (high - low) / 200;
     const power = 10 ** Math.floor(Math.log10(rough));
-    const step = whole ? Math.max(1, Math.round(rough)) : [1, 2, 5, 10].map((m) => m * power).find((s) => s >= rough * 0.999);
-    return { toValue: (p) => Number(Math.min(high, low + Math.round(((p / 1000) * (high - low)) / step) * step).toPrecision(6)), toPlace: (v) => (1000 * (v - low)) / (high - low) };
+    const step = whole
+      ? Math.max(1, Math.round(rough))
+      : [1, 2, 5, 10].map((m) => m * power).find((s) => s >= rough * 0.999);
+    return {
+      toValue: (p) =>
+        Number(Math.min(high, low + Math.round(((p / 1000) * (high - low)) / step) * step).toPrecision(6)),
+      toPlace: (v) => (1000 * (v - low)) / (high - low),
+    };
   }
   // Three decades about what is usual; the field takes what lies beyond.
   const from = Math.max(low, whole ? 1 : usual ? usual / 1000 : high / 1e6);
@@ -40,14 +46,25 @@ export function scale({ type, low, high, standard }) {
   const zero = low <= 0 ? 40 : 0; // places at the left end that stand for the lowest value
   const round = (v) => (whole ? Math.round(Number(v.toPrecision(2))) : Number(v.toPrecision(2)));
   return {
-    toValue: (p) => (p < zero ? low : Math.min(high, Math.max(low, round(from * (to / from) ** ((p - zero) / (1000 - zero)))))),
-    toPlace: (v) => (v < from ? (v > low ? zero : 0) : Math.min(1000, zero + ((1000 - zero) * Math.log(v / from)) / Math.log(to / from))),
+    toValue: (p) =>
+      p < zero ? low : Math.min(high, Math.max(low, round(from * (to / from) ** ((p - zero) / (1000 - zero))))),
+    toPlace: (v) =>
+      v < from
+        ? v > low
+          ? zero
+          : 0
+        : Math.min(1000, zero + ((1000 - zero) * Math.log(v / from)) / Math.log(to / from)),
   };
 }
 
 /** What a key allows, in words. */
 export function limits({ range, unit, standard }) {
-  return [range && `${range}${unit ? ` ${unit}` : ''}`, standard === '' || standard === "''" ? '' : `default ${plain(standard)}`].filter(Boolean).join('; ');
+  return [
+    range && `${range}${unit ? ` ${unit}` : ''}`,
+    standard === '' || standard === "''" ? '' : `default ${plain(standard)}`,
+  ]
+    .filter(Boolean)
+    .join('; ');
 }
 
 let count = 0;
@@ -62,9 +79,19 @@ export function field(key, path, act) {
   const title = `${path}: ${limits(key)}`;
   const refused = make('p', { className: 'refused', hidden: true, id: `${id}e` });
   refused.setAttribute('role', 'alert');
-  const back = make('button', { type: 'button', className: 'back', textContent: '↺', title: `Back to the default${key.standard ? ` (${plain(key.standard)})` : ''}` });
+  const back = make('button', {
+    type: 'button',
+    className: 'back',
+    textContent: '↺',
+    title: `Back to the default${key.standard ? ` (${plain(key.standard)})` : ''}`,
+  });
   back.setAttribute('aria-label', `${name}: back to the default`);
-  const label = make('label', { htmlFor: id }, name.replace(/_/g, ' '), key.unit && make('small', { textContent: ` ${key.unit}` }));
+  const label = make(
+    'label',
+    { htmlFor: id },
+    name.replace(/_/g, ' '),
+    key.unit && make('small', { textContent: ` ${key.unit}` }),
+  );
   const control = make('span', { className: 'control' });
   const element = make('div', { className: 'key' }, label, control, back, refused);
   element.dataset.path = path;
@@ -88,7 +115,8 @@ export function field(key, path, act) {
     if (value === '' && key.type !== 'text') settle(act.unset(path));
     else settle(act.set(path, value));
   };
-  const input = (properties) => Object.assign(make('input', { id, title, autocomplete: 'off', spellcheck: false }), properties);
+  const input = (properties) =>
+    Object.assign(make('input', { id, title, autocomplete: 'off', spellcheck: false }), properties);
 
   if (key.type === 'yes/no') {
     const box = input({ type: 'checkbox' });
@@ -99,7 +127,11 @@ export function field(key, path, act) {
     const list = make('select', { id, title });
     list.addEventListener('change', () => set(list.value));
     write = (value) => {
-      list.replaceChildren(...[...(key.choices.includes(value) ? [] : [value]), ...key.choices].map((v) => make('option', { value: v, textContent: v === '' ? '–' : v })));
+      list.replaceChildren(
+        ...[...(key.choices.includes(value) ? [] : [value]), ...key.choices].map((v) =>
+          make('option', { value: v, textContent: v === '' ? '–' : v }),
+        ),
+      );
       list.value = value;
     };
     control.append(list);
@@ -123,7 +155,10 @@ export function field(key, path, act) {
     const text = input(figure ? { type: 'number', step: 'any' } : { type: 'text' });
     text.placeholder = key.is_file ? 'no file' : figure ? plain(key.standard).split(' ')[0] || 'left out' : '';
     text.addEventListener('change', () => set(text.value.trim()));
-    text.addEventListener('keydown', (event) => event.key === 'Escape' && (write(plain(shown)), event.stopPropagation()));
+    text.addEventListener(
+      'keydown',
+      (event) => event.key === 'Escape' && (write(plain(shown)), event.stopPropagation()),
+    );
     const walk = scale(key);
     if (walk) control.append(slider(walk, text, `${name.replace(/_/g, ' ')}, slider`));
     write = (value) => {

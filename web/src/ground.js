@@ -1,9 +1,32 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The land in 3-D: a mesh whose colour, light, water, contours and lines are computed for every pixel from textures.
-import { BackSide, BufferAttribute, BufferGeometry, ClampToEdgeWrapping, DataTexture, DoubleSide, FloatType, GLSL3, Group,
-  HalfFloatType, LinearFilter, LinearMipmapLinearFilter, Mesh, NearestFilter, PlaneGeometry, RedFormat, RepeatWrapping, RGBAFormat, RGFormat, ShaderMaterial,
-  SphereGeometry, UnsignedByteType, Vector2, Vector3 } from 'three';
+import {
+  BackSide,
+  BufferAttribute,
+  BufferGeometry,
+  ClampToEdgeWrapping,
+  DataTexture,
+  DoubleSide,
+  FloatType,
+  GLSL3,
+  Group,
+  HalfFloatType,
+  LinearFilter,
+  LinearMipmapLinearFilter,
+  Mesh,
+  NearestFilter,
+  PlaneGeometry,
+  RedFormat,
+  RepeatWrapping,
+  RGBAFormat,
+  RGFormat,
+  ShaderMaterial,
+  SphereGeometry,
+  UnsignedByteType,
+  Vector2,
+  Vector3,
+} from 'three';
 import { distanceInside, skyView, slopes, sunlight } from './light.js';
 import { LineField } from './riverfield.js';
 
@@ -13,14 +36,18 @@ const farthestShore = 64; // [values] beyond which water is as deep as it gets
 const shared = /* glsl */`
 precision highp float;
 precision highp sampler2D;
-uniform float onMap, unit, dark, near, backdrop; // backdrop: [pixels] height of the view where no sea reaches the horizon
+// backdrop: [pixels] height of the view where no sea reaches the horizon
+uniform float onMap, unit, dark, near, backdrop;
 uniform vec3 sunThere, horizon, zenith;
 uniform sampler2D grain;
 vec3 linear(vec3 c) { return c * c; }
 vec3 screen(vec3 c) { return sqrt(c); }
 float noise(vec2 p) { return texture(grain, p / 64.0).r; }
 // What is behind the land.
-vec3 behind() { return mix(linear(horizon), linear(zenith), onMap > 0.5 ? 0.0 : 0.85 * smoothstep(0.25, 1.05, gl_FragCoord.y / max(backdrop, 1.0))); }
+vec3 behind() {
+  float up = onMap > 0.5 ? 0.0 : 0.85 * smoothstep(0.25, 1.05, gl_FragCoord.y / max(backdrop, 1.0));
+  return mix(linear(horizon), linear(zenith), up);
+}
 vec3 haze(vec3 c, vec3 at) {
   if (onMap > 0.5) return c;
   float far = max(0.0, distance(at, cameraPosition) - near);
@@ -116,7 +143,8 @@ vec3 landAt(vec2 uv, vec4 ground4) {
   vec3 ground = vec3(0.80, 0.78, 0.73);
   if (level < 0.5) {
     float v = texture(values, uv).r;
-    float share = byClass > 0.5 ? (v + 0.5) / 256.0 : high > low ? clamp((v - low) / (high - low), 0.0, 1.0) * 255.0 / 256.0 + 0.5 / 256.0 : 0.4;
+    float share = byClass > 0.5 ? (v + 0.5) / 256.0
+      : high > low ? clamp((v - low) / (high - low), 0.0, 1.0) * 255.0 / 256.0 + 0.5 / 256.0 : 0.4;
     ground = texture(palette, vec2(share, 0.5)).rgb;
   }
   // East, up, south: as the space of the view.
@@ -133,7 +161,8 @@ vec3 landAt(vec2 uv, vec4 ground4) {
     float direct = max(dot(normal, sun), 0.0) * lit;
     float skyward = open_ * (0.65 + 0.35 * normal.y);
     vec3 albedo = linear(ground) * mix(ground, vec3(1.0), 0.3) * (0.93 + 0.14 * noise(place * 0.7));
-    light = albedo * (vec3(1.98, 1.87, 1.66) * direct + vec3(0.40, 0.52, 0.74) * skyward * skyward + vec3(0.06, 0.05, 0.035));
+    light = albedo *
+      (vec3(1.98, 1.87, 1.66) * direct + vec3(0.40, 0.52, 0.74) * skyward * skyward + vec3(0.06, 0.05, 0.035));
     light *= mix(1.0, 0.62, dark);
     light = light * (1.0 + light / 6.0) / (1.0 + 0.55 * light);
   }
@@ -142,8 +171,10 @@ vec3 landAt(vec2 uv, vec4 ground4) {
     float wide = max(fwidth(rise), 1e-9);
     float off = abs(fract(rise - 0.5) - 0.5) / wide;
     float five = abs(fract(rise / index - 0.5) - 0.5) * index / wide;
-    float line = onMap > 0.5 ? (1.0 - smoothstep(0.2 * dpr, 0.2 * dpr + 0.8, off)) * 0.22 * (1.0 - smoothstep(0.15, 0.40, wide)) : 0.0;
-    float heavy = (1.0 - smoothstep(0.4 * dpr, 0.4 * dpr + 0.9, five)) * (onMap > 0.5 ? 0.42 : 0.36) * (1.0 - smoothstep(0.7, 2.0, wide));
+    float line = onMap > 0.5
+      ? (1.0 - smoothstep(0.2 * dpr, 0.2 * dpr + 0.8, off)) * 0.22 * (1.0 - smoothstep(0.15, 0.40, wide)) : 0.0;
+    float heavy = (1.0 - smoothstep(0.4 * dpr, 0.4 * dpr + 0.9, five)) * (onMap > 0.5 ? 0.42 : 0.36) *
+      (1.0 - smoothstep(0.7, 2.0, wide));
     light = mix(light, linear(vec3(0.40, 0.25, 0.14)), max(line, heavy));
   }
   return light;
@@ -168,16 +199,20 @@ void main() {
     vec3 w = water(max(ground4.w, 0.0), at, isLake);
     light = mix(light, w, in_);
     shoreline = 1.0 - smoothstep(0.0, 1.0, abs(share - 0.5) / max(fwidth(share), 1e-4) - 0.2 * dpr);
-    light = mix(light, onMap > 0.5 ? linear(vec3(0.20, 0.38, 0.55)) : vec3(0.86, 0.86, 0.80) * mix(1.0, 0.5, dark), shoreline * (onMap > 0.5 ? 0.7 : 0.5));
+    vec3 foam = onMap > 0.5 ? linear(vec3(0.20, 0.38, 0.55)) : vec3(0.86, 0.86, 0.80) * mix(1.0, 0.5, dark);
+    light = mix(light, foam, shoreline * (onMap > 0.5 ? 0.7 : 0.5));
   }
   light = haze(light, at);
   if (holes > 0.5 && sea < 0.5) light = mix(behind(), light, smoothstep(0.02, 0.9, covers.r));
   if (withPart > 0.5) {
     float in_ = texture(part, uv).r;
     vec2 right = across * 0.8 * dpr / size, under = down * 0.8 * dpr / size;
-    vec4 beside = vec4(texture(part, uv + right).r, texture(part, uv - right).r, texture(part, uv + under).r, texture(part, uv - under).r);
-    float step_ = max(max(beside.x, beside.y), max(beside.z, beside.w)) - min(min(beside.x, beside.y), min(beside.z, beside.w));
-    float rim = max(smoothstep(0.3, 0.6, step_), 1.0 - smoothstep(0.0, 1.0, abs(in_ - 0.5) / max(fwidth(in_), 1e-4) - 0.7 * dpr));
+    vec4 beside = vec4(texture(part, uv + right).r, texture(part, uv - right).r,
+                       texture(part, uv + under).r, texture(part, uv - under).r);
+    float step_ = max(max(beside.x, beside.y), max(beside.z, beside.w)) -
+      min(min(beside.x, beside.y), min(beside.z, beside.w));
+    float rim = max(smoothstep(0.3, 0.6, step_),
+                    1.0 - smoothstep(0.0, 1.0, abs(in_ - 0.5) / max(fwidth(in_), 1e-4) - 0.7 * dpr));
     light = mix(light, haze(linear(vec3(1.0, 0.47, 0.0)), at), max(0.9 * rim, 0.2 * smoothstep(0.3, 0.7, in_)));
   }
   if (withLines > 0.5) {
@@ -195,11 +230,14 @@ in float wet;
 out vec4 colour;
 void main() {
   float below = depth.x - at.y; // under the rim
-  float layer = noise(vec2(at.y * 90.0 + 2.0 * noise(at.xz * 7.0), 0.5)) * 0.6 + noise(vec2(at.y * 31.0 + noise(at.xz * 3.0), 7.0)) * 0.4;
+  float layer = noise(vec2(at.y * 90.0 + 2.0 * noise(at.xz * 7.0), 0.5)) * 0.6 +
+    noise(vec2(at.y * 31.0 + noise(at.xz * 3.0), 7.0)) * 0.4;
   vec3 rock = mix(vec3(0.46, 0.40, 0.33), vec3(0.66, 0.59, 0.49), layer);
   rock = mix(vec3(0.40, 0.36, 0.25), rock, smoothstep(0.0, 0.012, below));
-  float side = 0.55 + 0.45 * max(dot(normalize(vec3(dFdx(at.z), 0.0, -dFdx(at.x)) + 1e-9), vec3(sunThere.x, 0.0, sunThere.z)), 0.0);
-  vec3 c = linear(mix(rock, mix(vec3(0.30, 0.52, 0.62), vec3(0.10, 0.26, 0.40), smoothstep(0.0, 0.06, below)), step(0.5, wet))) * side * mix(1.0, 0.6, dark);
+  vec3 outwards = normalize(vec3(dFdx(at.z), 0.0, -dFdx(at.x)) + 1e-9);
+  float side = 0.55 + 0.45 * max(dot(outwards, vec3(sunThere.x, 0.0, sunThere.z)), 0.0);
+  vec3 depths = mix(vec3(0.30, 0.52, 0.62), vec3(0.10, 0.26, 0.40), smoothstep(0.0, 0.06, below));
+  vec3 c = linear(mix(rock, depths, step(0.5, wet))) * side * mix(1.0, 0.6, dark);
   c *= 0.55 + 0.45 * smoothstep(0.0, 0.06, at.y - depth.y);
   colour = vec4(screen(haze(c, at)), 1.0);
 }`;
@@ -275,7 +313,10 @@ function grain() {
     for (let c = 0; c < size; ++c, ++i) {
       const [c0, fc] = [Math.floor(c / fine), ease((c % fine) / fine)];
       const c1 = (c0 + 1) % knots;
-      bytes[i] = 255 * ((height[north + c0] * (1 - fc) + height[north + c1] * fc) * (1 - fr) + (height[south + c0] * (1 - fc) + height[south + c1] * fc) * fr);
+      bytes[i] =
+        255 *
+        ((height[north + c0] * (1 - fc) + height[north + c1] * fc) * (1 - fr) +
+          (height[south + c0] * (1 - fc) + height[south + c1] * fc) * fr);
     }
   }
   const t = texture(bytes, size, size, RedFormat, UnsignedByteType, LinearFilter);
@@ -292,7 +333,9 @@ function halves(data) {
   for (let i = 0; i < out.length; ++i) {
     const b = bits[i] + 0x1000;
     const exponent = (b >>> 23) & 255;
-    if (exponent > 112) out[i] = ((b >>> 16) & 0x8000) | (exponent > 142 ? 0x7bff : ((exponent - 112) << 10) | ((b >>> 13) & 0x3ff));
+    if (exponent > 112) {
+      out[i] = ((b >>> 16) & 0x8000) | (exponent > 142 ? 0x7bff : ((exponent - 112) << 10) | ((b >>> 13) & 0x3ff));
+    }
   }
   return out;
 }
@@ -309,7 +352,12 @@ function halved(data, width, height, parts) {
       const west = Math.min(2 * c, width - 1);
       const east = Math.min(2 * c + 1, width - 1);
       for (let k = 0; k < parts; ++k, ++i) {
-        out[i] = (data[(north + west) * parts + k] + data[(north + east) * parts + k] + data[(south + west) * parts + k] + data[(south + east) * parts + k]) / 4;
+        out[i] =
+          (data[(north + west) * parts + k] +
+            data[(north + east) * parts + k] +
+            data[(south + west) * parts + k] +
+            data[(south + east) * parts + k]) /
+          4;
       }
     }
   }
@@ -328,18 +376,36 @@ export class Ground {
     this.geometry = new BufferGeometry();
     this.#stitch();
     this.air = {
-      onMap: { value: 0 }, unit: { value: this.unit * land.cells }, near: { value: 0 }, backdrop: { value: 0 }, dark: { value: 0 }, sunThere: { value: new Vector3(0, 1, 0) },
-      horizon: { value: new Vector3(1, 1, 1) }, zenith: { value: new Vector3(1, 1, 1) }, grain: { value: grain() },
+      onMap: { value: 0 },
+      unit: { value: this.unit * land.cells },
+      near: { value: 0 },
+      backdrop: { value: 0 },
+      dark: { value: 0 },
+      sunThere: { value: new Vector3(0, 1, 0) },
+      horizon: { value: new Vector3(1, 1, 1) },
+      zenith: { value: new Vector3(1, 1, 1) },
+      grain: { value: grain() },
     };
     this.group.add(new Mesh(this.geometry, this.#material()));
-    this.walls = new Mesh(this.#wallsGeometry(), new ShaderMaterial({ glslVersion: GLSL3, vertexShader: wallVertexShader, fragmentShader: wallShader,
-      uniforms: this.air, side: DoubleSide }));
+    this.walls = new Mesh(
+      this.#wallsGeometry(),
+      new ShaderMaterial({
+        glslVersion: GLSL3,
+        vertexShader: wallVertexShader,
+        fragmentShader: wallShader,
+        uniforms: this.air,
+        side: DoubleSide,
+      }),
+    );
     this.group.add(this.walls);
     this.sky = new Mesh(new SphereGeometry(40, 24, 16), this.#plain(skyShader, { depthWrite: false, side: BackSide }));
     this.sky.renderOrder = 2; // where nothing else is
     this.sky.frustumCulled = false;
     this.half = { value: new Vector2(this.halfX, this.halfZ) };
-    this.ocean = new Mesh(new PlaneGeometry(70, 70).rotateX(-Math.PI / 2), this.#plain(seaShader, {}, { half_: this.half, surf: this.uniforms.surf }));
+    this.ocean = new Mesh(
+      new PlaneGeometry(70, 70).rotateX(-Math.PI / 2),
+      this.#plain(seaShader, {}, { half_: this.half, surf: this.uniforms.surf }),
+    );
     this.ocean.renderOrder = 1;
   }
 
@@ -350,7 +416,9 @@ export class Ground {
     this.halfX = (width * this.unit) / 2;
     this.halfZ = (height * this.unit) / 2;
     this.perMetre = this.unit / land.grid.cell_m;
-    if (this.field?.of !== `${width} ${height}`) this.field = Object.assign(new LineField(land.grid), { of: `${width} ${height}` });
+    if (this.field?.of !== `${width} ${height}`) {
+      this.field = Object.assign(new LineField(land.grid), { of: `${width} ${height}` });
+    }
     // As many stitches as asked along the longer side, never more than values.
     const most = Math.max(land.width, land.height);
     this.columns = Math.max(1, Math.min(land.width, Math.round((this.segments * land.width) / most)));
@@ -363,7 +431,9 @@ export class Ground {
     const sameFrame = ['width', 'height'].every((key) => before.grid[key] === land.grid[key]);
     this.#measure(land, lakes, sea);
     // Coarse land is laid on the finer mesh that is there already.
-    if (sameFrame && before.columns >= this.columns && before.rows >= this.rows) Object.assign(this, { columns: before.columns, rows: before.rows });
+    if (sameFrame && before.columns >= this.columns && before.rows >= this.rows) {
+      Object.assign(this, { columns: before.columns, rows: before.rows });
+    }
     if (sameFrame && before.columns === this.columns && before.rows === this.rows) {
       this.#lay();
       for (const name of ['position', 'uv']) this.geometry.getAttribute(name).needsUpdate = true;
@@ -383,7 +453,14 @@ export class Ground {
       u.heights.value.needsUpdate = true;
     } else {
       u.heights.value.dispose();
-      u.heights.value = texture(land.z, width, height, RedFormat, FloatType, this.linear ? LinearFilter : NearestFilter);
+      u.heights.value = texture(
+        land.z,
+        width,
+        height,
+        RedFormat,
+        FloatType,
+        this.linear ? LinearFilter : NearestFilter,
+      );
     }
     u.values.value = u.heights.value;
     this.slope = slopes(land);
@@ -400,7 +477,13 @@ export class Ground {
   }
 
   #plain(fragment, options, uniforms = {}) {
-    return new ShaderMaterial({ glslVersion: GLSL3, vertexShader: plainVertexShader, fragmentShader: fragment, uniforms: { ...this.air, ...uniforms }, ...options });
+    return new ShaderMaterial({
+      glslVersion: GLSL3,
+      vertexShader: plainVertexShader,
+      fragmentShader: fragment,
+      uniforms: { ...this.air, ...uniforms },
+      ...options,
+    });
   }
 
   #stitch() {
@@ -448,19 +531,42 @@ export class Ground {
     const one = new Float32Array(4);
     this.uniforms = {
       ...this.air,
-      heights: { value: heights }, values: { value: heights }, surf: { value: null }, cover: { value: this.#cover() },
+      heights: { value: heights },
+      values: { value: heights },
+      surf: { value: null },
+      cover: { value: this.#cover() },
       shadow: { value: texture(new Uint8Array([255]), 1, 1, RedFormat, UnsignedByteType, LinearFilter) },
-      palette: { value: null }, size: { value: new Vector2(width, height) }, fine: { value: new Vector2(this.field.width, this.field.height) },
+      palette: { value: null },
+      size: { value: new Vector2(width, height) },
+      fine: { value: new Vector2(this.field.width, this.field.height) },
       nearest: { value: texture(new Float32Array(1), 1, 1, RedFormat, FloatType, NearestFilter) },
       segments: { value: texture(one, 1, 1, RGBAFormat, FloatType, NearestFilter) },
       styles: { value: texture(one, 1, 1, RGBAFormat, FloatType, NearestFilter) },
-      holes: { value: land.has ? 1 : 0 }, sea: { value: this.sea && land.has ? 1 : 0 }, low: { value: land.min }, high: { value: land.max },
-      gain: { value: 1 }, contour: { value: 0 }, index: { value: 5 }, dpr: { value: 1 }, byClass: { value: 0 }, withLines: { value: 0 }, lineByClass: { value: 0 },
-      part: { value: texture(new Uint8Array(1), 1, 1, RedFormat, UnsignedByteType, LinearFilter) }, withPart: { value: 0 },
+      holes: { value: land.has ? 1 : 0 },
+      sea: { value: this.sea && land.has ? 1 : 0 },
+      low: { value: land.min },
+      high: { value: land.max },
+      gain: { value: 1 },
+      contour: { value: 0 },
+      index: { value: 5 },
+      dpr: { value: 1 },
+      byClass: { value: 0 },
+      withLines: { value: 0 },
+      lineByClass: { value: 0 },
+      part: { value: texture(new Uint8Array(1), 1, 1, RedFormat, UnsignedByteType, LinearFilter) },
+      withPart: { value: 0 },
       lineColours: { value: Array.from({ length: 8 }, () => new Vector3()) },
-      level: { value: land.level ? 1 : 0 }, sun: { value: new Vector3(0, 1, 0) },
+      level: { value: land.level ? 1 : 0 },
+      sun: { value: new Vector3(0, 1, 0) },
     };
-    return new ShaderMaterial({ glslVersion: GLSL3, vertexShader, fragmentShader, uniforms: this.uniforms, side: DoubleSide, defines: linear ? { LINEAR: 1 } : {} });
+    return new ShaderMaterial({
+      glslVersion: GLSL3,
+      vertexShader,
+      fragmentShader,
+      uniforms: this.uniforms,
+      side: DoubleSide,
+      defines: linear ? { LINEAR: 1 } : {},
+    });
   }
 
   /** Land (blurred where it fades at a mask) and lakes, and how far water is from its shore. */
@@ -510,7 +616,9 @@ export class Ground {
           const s = sky.seen;
           const fu = u - c0;
           const fv = v - r0;
-          seen = (s[r0 * sky.width + c0] * (1 - fu) + s[r0 * sky.width + c1] * fu) * (1 - fv) + (s[r1 * sky.width + c0] * (1 - fu) + s[r1 * sky.width + c1] * fu) * fv;
+          seen =
+            (s[r0 * sky.width + c0] * (1 - fu) + s[r0 * sky.width + c1] * fu) * (1 - fv) +
+            (s[r1 * sky.width + c0] * (1 - fu) + s[r1 * sky.width + c1] * fu) * fv;
         }
         at.data[4 * i] = east[i];
         at.data[4 * i + 1] = south[i];
@@ -534,21 +642,36 @@ export class Ground {
 
   /** azimuth and altitude of the sun [rad]. */
   shine(azimuth, altitude) {
-    const there = new Vector3(Math.sin(azimuth) * Math.cos(altitude), Math.sin(altitude), -Math.cos(azimuth) * Math.cos(altitude));
+    const there = new Vector3(
+      Math.sin(azimuth) * Math.cos(altitude),
+      Math.sin(altitude),
+      -Math.cos(azimuth) * Math.cos(altitude),
+    );
     this.uniforms.sun.value.copy(there);
     this.air.sunThere.value.copy(there);
     if (this.land.level) return;
     const light = sunlight(this.land, azimuth, altitude, this.lift);
     this.uniforms.shadow.value.dispose();
-    this.uniforms.shadow.value = texture(light, this.land.width, this.land.height, RedFormat, UnsignedByteType, LinearFilter);
+    this.uniforms.shadow.value = texture(
+      light,
+      this.land.width,
+      this.land.height,
+      RedFormat,
+      UnsignedByteType,
+      LinearFilter,
+    );
   }
 
-  /** Colours the ground by one number a value. palette: bytes of 256 colours RGBA; by class: the number is a colour's. */
+  /**
+   * Colours the ground by one number a value. palette: bytes of 256 colours RGBA; by class: the number is a colour's.
+   */
   paint({ values, low, high, palette, byClass }) {
     const u = this.uniforms;
     const { width, height } = this.land;
     if (u.values.value !== u.heights.value) u.values.value.dispose();
-    u.values.value = values ? texture(values, width, height, RedFormat, FloatType, byClass || !this.linear ? NearestFilter : LinearFilter) : u.heights.value;
+    u.values.value = values
+      ? texture(values, width, height, RedFormat, FloatType, byClass || !this.linear ? NearestFilter : LinearFilter)
+      : u.heights.value;
     u.palette.value?.dispose();
     u.palette.value = texture(palette, 256, 1, RGBAFormat, UnsignedByteType, byClass ? NearestFilter : LinearFilter);
     Object.assign(u.low, { value: low });
@@ -572,8 +695,11 @@ export class Ground {
     u.withLines.value = groups.some(({ lines }) => lines.length) ? 1 : 0;
     if (!u.withLines.value) return;
     field.build(groups);
-    for (const [name, data, width, height, format] of [['nearest', field.nearest, field.width, field.height, RedFormat],
-      ['segments', field.segments, LineField.columns, field.rows, RGBAFormat], ['styles', field.styles, LineField.columns, field.rows, RGBAFormat]]) {
+    for (const [name, data, width, height, format] of [
+      ['nearest', field.nearest, field.width, field.height, RedFormat],
+      ['segments', field.segments, LineField.columns, field.rows, RGBAFormat],
+      ['styles', field.styles, LineField.columns, field.rows, RGBAFormat],
+    ]) {
       u[name].value.dispose();
       u[name].value = texture(data, width, height, format, FloatType, NearestFilter);
     }
@@ -608,7 +734,14 @@ export class Ground {
     this.rim.forEach((at, i) => {
       const [x, y, z] = this.positions.subarray(3 * at, 3 * at + 3);
       wall.array.set([x, y, z, x, base, z], 6 * i);
-      const wet = this.sea && !this.land.known(Math.min((x + this.halfX) / this.unit, this.land.grid.width - 1e-6), Math.min((z + this.halfZ) / this.unit, this.land.grid.height - 1e-6)) ? 1 : 0;
+      const wet =
+        this.sea &&
+        !this.land.known(
+          Math.min((x + this.halfX) / this.unit, this.land.grid.width - 1e-6),
+          Math.min((z + this.halfZ) / this.unit, this.land.grid.height - 1e-6),
+        )
+          ? 1
+          : 0;
       edge.array.set([y, base, wet, y, base, wet], 6 * i);
     });
     wall.needsUpdate = edge.needsUpdate = true;
@@ -619,7 +752,10 @@ export class Ground {
     this.#surface();
   }
 
-  /** Places that must be in sight, in space as raised: the rim and the foot of the corners, or the edge of land in the sea. */
+  /**
+   * Places that must be in sight, in space as raised: the rim and the foot of the corners, or the edge of land in the
+   * sea.
+   */
   corners() {
     const out = [];
     const { land } = this;
@@ -629,7 +765,13 @@ export class Ground {
         for (let c = 0; c < land.width; c += stride) {
           const i = r * land.width + c;
           if (!land.has[i]) continue;
-          out.push(new Vector3((c + 0.5) * land.cells * this.unit - this.halfX, (land.z[i] - land.min) * this.perMetre * this.lift, (r + 0.5) * land.cells * this.unit - this.halfZ));
+          out.push(
+            new Vector3(
+              (c + 0.5) * land.cells * this.unit - this.halfX,
+              (land.z[i] - land.min) * this.perMetre * this.lift,
+              (r + 0.5) * land.cells * this.unit - this.halfZ,
+            ),
+          );
         }
       }
       return out;
@@ -637,14 +779,21 @@ export class Ground {
     const wall = this.walls.geometry.getAttribute('position').array;
     const stride = 6 * Math.max(1, Math.floor(this.rim.length / 200));
     for (let i = 0; i < wall.length; i += stride) {
-      out.push(new Vector3(wall[i], wall[i + 1] * this.lift, wall[i + 2]), new Vector3(wall[i + 3], wall[i + 4] * this.lift, wall[i + 5]));
+      out.push(
+        new Vector3(wall[i], wall[i + 1] * this.lift, wall[i + 2]),
+        new Vector3(wall[i + 3], wall[i + 4] * this.lift, wall[i + 5]),
+      );
     }
     return out;
   }
 
   /** A place of the land [cells] in space, as raised. */
   spot(x, y) {
-    return new Vector3(x * this.unit - this.halfX, (this.land.heightAt(x, y) - this.land.min) * this.perMetre * this.lift, y * this.unit - this.halfZ);
+    return new Vector3(
+      x * this.unit - this.halfX,
+      (this.land.heightAt(x, y) - this.land.min) * this.perMetre * this.lift,
+      y * this.unit - this.halfZ,
+    );
   }
 
   /** Where a ray first meets the land: {x, y} [cells], or null. Straight steps of half a value, then bisection. */
@@ -653,8 +802,11 @@ export class Ground {
     const roof = (this.land.max - this.land.min) * this.perMetre * this.lift + 1e-6;
     let from = 0;
     let to = Infinity;
-    for (const [o, d, least, most] of [[origin.x, direction.x, -this.halfX, this.halfX], [origin.y, direction.y, -1e-6, roof],
-      [origin.z, direction.z, -this.halfZ, this.halfZ]]) {
+    for (const [o, d, least, most] of [
+      [origin.x, direction.x, -this.halfX, this.halfX],
+      [origin.y, direction.y, -1e-6, roof],
+      [origin.z, direction.z, -this.halfZ, this.halfZ],
+    ]) {
       if (Math.abs(d) < 1e-12) {
         if (o < least || o > most) return null;
         continue;
@@ -665,8 +817,12 @@ export class Ground {
       to = Math.min(to, Math.max(a, b));
     }
     if (from > to) return null;
-    const place = (t) => [(origin.x + t * direction.x + this.halfX) / this.unit, (origin.z + t * direction.z + this.halfZ) / this.unit];
-    const above = (t) => origin.y + t * direction.y - (this.land.heightAt(...place(t)) - this.land.min) * this.perMetre * this.lift;
+    const place = (t) => [
+      (origin.x + t * direction.x + this.halfX) / this.unit,
+      (origin.z + t * direction.z + this.halfZ) / this.unit,
+    ];
+    const above = (t) =>
+      origin.y + t * direction.y - (this.land.heightAt(...place(t)) - this.land.min) * this.perMetre * this.lift;
     const step = pace * this.land.cells * this.unit;
     let before = from;
     for (let t = from; ; t = Math.min(t + step, to)) {
@@ -687,6 +843,10 @@ export class Ground {
   }
 
   #solid([x, y]) {
-    return this.land.level || Boolean(this.sea) || this.land.known(Math.min(x, this.land.grid.width - 1e-6), Math.min(y, this.land.grid.height - 1e-6));
+    return (
+      this.land.level ||
+      Boolean(this.sea) ||
+      this.land.known(Math.min(x, this.land.grid.width - 1e-6), Math.min(y, this.land.grid.height - 1e-6))
+    );
   }
 }

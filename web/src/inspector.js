@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What stands beside the toolbar while one draws: what is chosen, and what can be done with it; and words at the pointer.
+// What stands beside the toolbar while one draws: what is chosen, and what can be done with it; and words at the
+// pointer.
 import { make } from './elements.js';
 
 const press = (text, title, click) => {
@@ -50,8 +51,8 @@ function saying(desk, stage) {
   return follow;
 }
 
-/** types: of rivers; hold(id): takes a tool. Gives {show(), follow(): words go with the view}. */
-export function inspector(desk, types, hold) {
+/** types: of rivers. Gives {show(), follow(): words go with the view}. */
+export function inspector(desk, types) {
   const stage = document.getElementById('stage');
   const follow = saying(desk, stage);
   const change = (what) => desk.send(what);
@@ -60,15 +61,51 @@ export function inspector(desk, types, hold) {
   const title = make('p', { className: 'what' });
   const note = make('p', { className: 'hint' });
   const type = make('select', { id: 'river-type' });
-  const lambda = make('input', { type: 'number', id: 'river-lambda', min: 1, max: 50, step: 1, placeholder: 'recipe', autocomplete: 'off' });
-  const level = make('input', { type: 'number', id: 'lake-level', step: 'any', placeholder: 'by the terrain', autocomplete: 'off' });
-  const field = (label, control, unit) => make('div', { className: 'row' }, make('label', { htmlFor: control.id, textContent: label }), control, unit && make('span', { textContent: unit }));
+  const lambda = make('input', {
+    type: 'number',
+    id: 'river-lambda',
+    min: 1,
+    max: 50,
+    step: 1,
+    placeholder: 'recipe',
+    autocomplete: 'off',
+  });
+  const level = make('input', {
+    type: 'number',
+    id: 'lake-level',
+    step: 'any',
+    placeholder: 'by the terrain',
+    autocomplete: 'off',
+  });
+  const field = (label, control, unit) =>
+    make(
+      'div',
+      { className: 'row' },
+      make('label', { htmlFor: control.id, textContent: label }),
+      control,
+      unit && make('span', { textContent: unit }),
+    );
   const height = make('input', { type: 'number', id: 'pin-height', step: 'any', autocomplete: 'off' });
-  const [from, to] = ['from', 'to'].map((end) => make('input', { type: 'number', id: `ridge-${end}`, step: 'any', placeholder: 'by the terrain', autocomplete: 'off' }));
+  const [from, to] = ['from', 'to'].map((end) =>
+    make('input', {
+      type: 'number',
+      id: `ridge-${end}`,
+      step: 'any',
+      placeholder: 'by the terrain',
+      autocomplete: 'off',
+    }),
+  );
   const [typeRow, lambdaRow, levelRow] = [field('Type', type), field('Branching', lambda), field('Level', level, 'm')];
-  const [heightRow, fromRow, toRow] = [field('Height', height, 'm'), field('Begins at', from, 'm'), field('Ends at', to, 'm')];
-  fromRow.title = toRow.title = 'Height of the ridge at its end; one alone: it is level; none: it is as high as the terrain';
-  lambdaRow.title = 'Generator lambda of the side streams: 1 has none, 2 is dendritic, larger values are feathered; empty: as the recipe says';
+  const [heightRow, fromRow, toRow] = [
+    field('Height', height, 'm'),
+    field('Begins at', from, 'm'),
+    field('Ends at', to, 'm'),
+  ];
+  fromRow.title = toRow.title =
+    'Height of the ridge at its end; one alone: it is level; none: it is as high as the terrain';
+  lambdaRow.title =
+    'Generator lambda of the side streams: 1 has none, 2 is dendritic, larger values are feathered; ' +
+    'empty: as the recipe says';
 
   type.addEventListener('change', () => {
     const river = chosen('river');
@@ -144,10 +181,25 @@ export function inspector(desk, types, hold) {
   const clear = press('Clear sheet', 'An empty sheet: nothing is drawn on it', async () => {
     const { drawing } = desk;
     desk.choose(null);
-    if (await desk.send({ verb: 'clear' }, { kind: 'river', line: [], hides: drawing.objects })) desk.ontell('An empty sheet. Undo (Ctrl+Z) brings everything back', {});
+    if (await desk.send({ verb: 'clear' }, { kind: 'river', line: [], hides: drawing.objects })) {
+      desk.ontell('An empty sheet. Undo (Ctrl+Z) brings everything back', {});
+    }
   });
   const whole = make('div', { className: 'whole' }, make('label', {}, branching, 'side streams'), clear);
-  const box = make('section', { id: 'inspector', hidden: true }, title, note, typeRow, lambdaRow, levelRow, heightRow, fromRow, toRow, actions, whole);
+  const box = make(
+    'section',
+    { id: 'inspector', hidden: true },
+    title,
+    note,
+    typeRow,
+    lambdaRow,
+    levelRow,
+    heightRow,
+    fromRow,
+    toRow,
+    actions,
+    whole,
+  );
   box.setAttribute('aria-label', 'Drawing');
   const hint = make('p', { id: 'sheet-hint', hidden: true });
   hint.append('Draw a river ', make('kbd', { textContent: 'R' }), ': from its source to the sea, or the other way');
@@ -176,7 +228,9 @@ export function inspector(desk, types, hold) {
     levelRow.hidden = !(lake || tool === 'lake');
     const value = river ? river.type : desk.type;
     const all = ['', ...types, ...(types.includes(value) || value === '' ? [] : [value])];
-    if (all.join() !== Array.from(type.options, (o) => o.value).join()) type.replaceChildren(...all.map((t) => make('option', { value: t, textContent: t || 'none' })));
+    if (all.join() !== Array.from(type.options, (o) => o.value).join()) {
+      type.replaceChildren(...all.map((t) => make('option', { value: t, textContent: t || 'none' })));
+    }
     type.value = value;
     put(lambda, (river ? river.lambda : desk.lambda) || '');
     put(level, (lake ? lake.level : desk.level) ?? '');
@@ -185,18 +239,31 @@ export function inspector(desk, types, hold) {
   function words() {
     const { drawing, tool } = desk;
     const count = (n, word) => n > 0 && `${n} ${word}${n > 1 ? 's' : ''}`;
-    const all = [count(drawing.rivers.length, 'river'), count(drawing.coasts.length, 'coast'), count(drawing.lakes.length, 'lake'), count(drawing.masks.length, 'mask'),
-      count(drawing.pins.length, 'pin'), count(drawing.ridges.length, 'ridge')].filter(Boolean);
+    const all = [
+      count(drawing.rivers.length, 'river'),
+      count(drawing.coasts.length, 'coast'),
+      count(drawing.lakes.length, 'lake'),
+      count(drawing.masks.length, 'mask'),
+      count(drawing.pins.length, 'pin'),
+      count(drawing.ridges.length, 'ridge'),
+    ].filter(Boolean);
     title.textContent = desk.chosen ? desk.describe(desk.chosen) : tool.title.split(':')[0];
-    note.textContent = drawing.kind === 'shown' && drawing.rivers.length ? 'The network becomes drawn lines; undo brings the generator back.'
-      : desk.chosen ? '' : tool.id === 'select' ? `${all.join(', ') || 'Nothing is drawn'}.` : `${tool.help}.`;
+    note.textContent =
+      drawing.kind === 'shown' && drawing.rivers.length
+        ? 'The network becomes drawn lines; undo brings the generator back.'
+        : desk.chosen
+          ? ''
+          : tool.id === 'select'
+            ? `${all.join(', ') || 'Nothing is drawn'}.`
+            : `${tool.help}.`;
     note.hidden = note.textContent === '';
   }
 
   function show() {
     const { drawing, tool } = desk;
     box.hidden = !tool || !drawing;
-    hint.hidden = !drawing || drawing.rivers.length > 0 || !desk.fits || desk.ghosts.length > 0 || (tool?.line?.length ?? 0) > 0;
+    hint.hidden =
+      !drawing || drawing.rivers.length > 0 || !desk.fits || desk.ghosts.length > 0 || (tool?.line?.length ?? 0) > 0;
     if (box.hidden) return;
     words();
     fields();
@@ -205,7 +272,9 @@ export function inspector(desk, types, hold) {
     swap.hidden = !chosen('coast');
     erase.hidden = !desk.chosen;
     erase.textContent = desk.vertex >= 0 ? 'Delete vertex' : 'Delete';
-    erase.title = `${desk.vertex >= 0 ? 'The chosen vertex' : river ? 'The river with all that flow into it' : 'What is chosen'} (Delete)`;
+    const erased =
+      desk.vertex >= 0 ? 'The chosen vertex' : river ? 'The river with all that flow into it' : 'What is chosen';
+    erase.title = `${erased} (Delete)`;
     alone.hidden = !river || desk.vertex >= 0 || drawing.above(river).length < 2;
     const open = (tool.line?.length ?? 0) > 0;
     finish.hidden = back.hidden = !open;

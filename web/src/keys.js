@@ -4,7 +4,8 @@
 import { make } from './elements.js';
 
 /** Whether a key is typed into a field. */
-export const typing = ({ target }) => target.closest?.('textarea, select, input:not([type=range], [type=checkbox], [type=radio])') !== null;
+export const typing = ({ target }) =>
+  target.closest?.('textarea, select, input:not([type=range], [type=checkbox], [type=radio])') !== null;
 
 /** A dialog with a heading and a button that closes it. */
 export function dialog(title, ...children) {
@@ -19,7 +20,14 @@ export function dialog(title, ...children) {
 
 /** rows: [[key, what it does], …]. */
 export function keysDialog(button, rows) {
-  const list = make('dl', { className: 'keys' }, ...rows.flatMap(([key, does]) => [make('dt', {}, make('kbd', { textContent: key })), make('dd', { textContent: does })]));
+  const list = make(
+    'dl',
+    { className: 'keys' },
+    ...rows.flatMap(([key, does]) => [
+      make('dt', {}, make('kbd', { textContent: key })),
+      make('dd', { textContent: does }),
+    ]),
+  );
   const whole = dialog('Keys and pointer', list);
   button.addEventListener('click', () => whole.showModal());
   window.addEventListener('keydown', (event) => {

@@ -48,7 +48,14 @@ export class Labels {
       if (label.kind === 'contour') {
         const [c, s] = [Math.abs(Math.cos(label.angle)), Math.abs(Math.sin(label.angle))];
         const [hx, hy] = [(wide * c + size * s) / 2 + 2, (wide * s + size * c) / 2 + 2];
-        const box = { text: label.text, kind: label.kind, x0: label.x - hx, x1: label.x + hx, y0: label.y - hy, y1: label.y + hy };
+        const box = {
+          text: label.text,
+          kind: label.kind,
+          x0: label.x - hx,
+          x1: label.x + hx,
+          y0: label.y - hy,
+          y1: label.y + hy,
+        };
         if (!free(box)) continue;
         taken.push(box);
         this.boxes.push(box);
@@ -63,7 +70,16 @@ export class Labels {
       // Right of the place, else left, above, below.
       const gap = 6;
       const tries = [[gap, -size / 2], [-gap - wide, -size / 2], [-wide / 2, -size - gap], [-wide / 2, gap]];
-      const found = tries.map(([dx, dy]) => ({ text: label.text, kind: label.kind, x0: label.x + dx - 1, x1: label.x + dx + wide + 1, y0: label.y + dy - 2, y1: label.y + dy + size + 2 })).find(free);
+      const found = tries
+        .map(([dx, dy]) => ({
+          text: label.text,
+          kind: label.kind,
+          x0: label.x + dx - 1,
+          x1: label.x + dx + wide + 1,
+          y0: label.y + dy - 2,
+          y1: label.y + dy + size + 2,
+        }))
+        .find(free);
       if (!found) continue;
       const dot = { x0: label.x - 4, x1: label.x + 4, y0: label.y - 4, y1: label.y + 4 };
       taken.push(found, dot);
@@ -83,7 +99,15 @@ export class Labels {
       pen.fillStyle = label.kind === 'outlet' ? (this.dark ? '#8cc0f0' : '#1b5793') : ink;
       pen.fill();
       pen.textAlign = 'left';
-      this.#write(pen, label.text, found.x0 + 1, (found.y0 + found.y1) / 2, label.kind === 'outlet' ? (this.dark ? '#a9d2f7' : '#164a80') : ink, halo, 3.2);
+      this.#write(
+        pen,
+        label.text,
+        found.x0 + 1,
+        (found.y0 + found.y1) / 2,
+        label.kind === 'outlet' ? (this.dark ? '#a9d2f7' : '#164a80') : ink,
+        halo,
+        3.2,
+      );
     }
     for (const [x, y] of marks) {
       pen.beginPath();
@@ -128,8 +152,8 @@ export class Labels {
 }
 
 /**
- * Places for labels along index contours [{x, y [cells], z, dx, dy: direction of the contour}], far apart: where rows and
- * columns of the land cross a level, on gentle ground first.
+ * Places for labels along index contours [{x, y [cells], z, dx, dy: direction of the contour}], far apart: where rows
+ * and columns of the land cross a level, on gentle ground first.
  */
 export function contourPlaces(land, interval, most) {
   const places = [];
@@ -139,7 +163,9 @@ export function contourPlaces(land, interval, most) {
   for (let r = stride; r + stride < land.height; r += stride) {
     for (let c = 2; c + 3 < land.width; ++c) {
       const i = r * land.width + c;
-      if (land.has && !(land.has[i] && land.has[i + 1] && land.has[i - land.width] && land.has[i + land.width])) continue;
+      if (land.has && !(land.has[i] && land.has[i + 1] && land.has[i - land.width] && land.has[i + land.width])) {
+        continue;
+      }
       const a = Math.floor(land.z[i] / interval);
       const b = Math.floor(land.z[i + 1] / interval);
       if (a === b) continue;

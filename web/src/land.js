@@ -95,7 +95,9 @@ export class Land {
     const i = r * this.width + c;
     const fx = u - c;
     const fy = v - r;
-    return (this.z[i] * (1 - fx) + this.z[i + e] * fx) * (1 - fy) + (this.z[i + s] * (1 - fx) + this.z[i + e + s] * fx) * fy;
+    return (
+      (this.z[i] * (1 - fx) + this.z[i + e] * fx) * (1 - fy) + (this.z[i + s] * (1 - fx) + this.z[i + e + s] * fx) * fy
+    );
   }
 
   inside(x, y) {

@@ -17,7 +17,9 @@ class Tiles {
       const c0 = tile * (t % across);
       const r0 = tile * Math.floor(t / across);
       const columns = Math.min(tile, width - c0);
-      for (let r = r0; r < Math.min(r0 + tile, height); ++r, at += columns) values.set(payload.subarray(at, at + columns), r * width + c0);
+      for (let r = r0; r < Math.min(r0 + tile, height); ++r, at += columns) {
+        values.set(payload.subarray(at, at + columns), r * width + c0);
+      }
     }
     if (at !== payload.length) throw new Error('the heights from thalweg are damaged');
     this.#kind = kind;
@@ -44,13 +46,17 @@ export class Link {
 
   #open() {
     this.#job = 0;
-    const socket = (this.socket = new WebSocket(`${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}${location.pathname}${location.search}`));
+    const socket = (this.socket = new WebSocket(
+      `${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}${location.pathname}${location.search}`,
+    ));
     socket.binaryType = 'arraybuffer';
     socket.addEventListener('open', () => {
       this.#attempts = 0;
       this.on.opened();
     });
-    socket.addEventListener('message', ({ data }) => (typeof data === 'string' ? this.#read(JSON.parse(data)) : this.#frame(data)));
+    socket.addEventListener('message', ({ data }) =>
+      typeof data === 'string' ? this.#read(JSON.parse(data)) : this.#frame(data),
+    );
     socket.addEventListener('close', () => {
       for (const { reject } of this.#waiting.values()) reject(new Error('the connection to thalweg studio was lost'));
       this.#waiting.clear();
@@ -78,7 +84,8 @@ export class Link {
     const size = new DataView(buffer).getUint32(0, true);
     const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, size)));
     if (header.kind !== 'heights') return;
-    const values = this.#rasters[header.level].take(header, new Float32Array(buffer, 4 + size)); // late ones too: later tiles lie beside them
+    // late ones too: later tiles lie beside them
+    const values = this.#rasters[header.level].take(header, new Float32Array(buffer, 4 + size));
     if (!this.#late(header)) this.on.heights(header, values);
   }
 

@@ -19,7 +19,12 @@ function fail(error) {
 function packed() {
   const data = JSON.parse(text('data'));
   const land = new Land(data.grid, data.heights, text('heights'), data.sea);
-  return { data, land, rivers: new Rivers(data.rivers, data.ridges, text('lines')), water: new Water(land, text('water'), data.lakes) };
+  return {
+    data,
+    land,
+    rivers: new Rivers(data.rivers, data.ridges, text('lines')),
+    water: new Water(land, text('water'), data.lakes),
+  };
 }
 
 window.addEventListener('error', (event) => fail(event.error ?? event.message));

@@ -6,25 +6,56 @@ import { number, plot } from './chart.js';
 import { fold, make, save, table } from './elements.js';
 import { typing } from './keys.js';
 import { slopes } from './light.js';
-import { along, catchment, courseAt, crossings, fallAt, leastReach, lengthOf, nearestOn, networkOf, outline, riverOf, riverProfile, room, sectionAcross, sectionPoints, spread, sums,
-  traverse, valley, valueOfRiver, wkt } from './survey.js';
+import {
+  along,
+  catchment,
+  courseAt,
+  crossings,
+  fallAt,
+  leastReach,
+  lengthOf,
+  nearestOn,
+  networkOf,
+  outline,
+  riverOf,
+  riverProfile,
+  room,
+  sectionAcross,
+  sectionPoints,
+  spread,
+  sums,
+  traverse,
+  valley,
+  valueOfRiver,
+  wkt,
+} from './survey.js';
 
 const unit = (value, name) => `${value}\u00a0${name}`;
 const far = (m) => (m >= 2000 ? unit(number(m / 1000), 'km') : unit(number(m), 'm'));
 const high = (z) => unit(number(Math.round(10 * z) / 10 + 0, 6), 'm'); // no minus before 0
 const square = (m2) => (m2 >= 1e5 ? unit(number(m2 / 1e6), 'km²') : unit(number(m2), 'm²'));
-const angle = (degrees) => (Number.isFinite(degrees) ? `${(Math.round(10 * degrees) / 10 + 0).toFixed(1).replace('-', '\u2212')}°` : '–');
+const angle = (degrees) =>
+  Number.isFinite(degrees) ? `${(Math.round(10 * degrees) / 10 + 0).toFixed(1).replace('-', '\u2212')}°` : '–';
 const counted = (n, one, many = `${one}s`) => `${number(n)} ${n === 1 ? one : many}`;
-const facts = (rows) => make('dl', {}, ...rows.flatMap(([name, value]) => [make('dt', { textContent: name }), make('dd', { textContent: value })]));
+const facts = (rows) =>
+  make(
+    'dl',
+    {},
+    ...rows.flatMap(([name, value]) => [make('dt', { textContent: name }), make('dd', { textContent: value })]),
+  );
 const ink = '#d95f02';
 const paper = 'rgb(255 255 252 / 0.9)';
 
-// ── What each kind of measurement finds. A result: {title, sentence: for who does not see it, figures: for scripts, line: what is
-// drawn, content: nodes of the card, points and chart: of a diagram, saves: [[label, name, ending, text], …], inside: part of the land}.
+// ── What each kind of measurement finds. A result: {title, sentence: for who does not see it, figures: for scripts,
+// line: what is drawn, content: nodes of the card, points and chart: of a diagram, saves: [[label, name, ending, text],
+// …], inside: part of the land}.
 
 /** Rivers at places of a profile: marks over its line, and a list. */
 function riversAlong(points, rivers, { heading, scale }) {
-  const spots = rivers.map((river) => ({ ...river, sample: points.reduce((best, p, i) => (Math.abs(p.d - river.d) < Math.abs(points[best].d - river.d) ? i : best), 0) }));
+  const spots = rivers.map((river) => ({
+    ...river,
+    sample: points.reduce((best, p, i) => (Math.abs(p.d - river.d) < Math.abs(points[best].d - river.d) ? i : best), 0),
+  }));
   const about = points.length / 200;
   return {
     flags: spots.map(({ d, sample }) => [d / scale.by, points[sample].z]),
@@ -32,8 +63,16 @@ function riversAlong(points, rivers, { heading, scale }) {
       const near = spots.find(({ sample }) => Math.abs(sample - i) <= about);
       return near && `river of order ${near.order}, drains ${square(near.area)}`;
     },
-    list: spots.length ? fold(`${counted(spots.length, 'river')} ${heading}`, table(['at', 'order', 'drains'],
-      spots.slice(0, 200).map(({ d, order, area }) => [far(d), String(order), square(area)]), `Rivers ${heading}`)) : null,
+    list: spots.length
+      ? fold(
+          `${counted(spots.length, 'river')} ${heading}`,
+          table(
+            ['at', 'order', 'drains'],
+            spots.slice(0, 200).map(({ d, order, area }) => [far(d), String(order), square(area)]),
+            `Rivers ${heading}`,
+          ),
+        )
+      : null,
   };
 }
 const scaleOf = (length) => (length >= 2000 ? { by: 1000, unit: 'km' } : { by: 1, unit: 'm' });
@@ -41,7 +80,9 @@ const scaleOf = (length) => (length >= 2000 ? { by: 1000, unit: 'km' } : { by: 1
 function csv(points, data, first = 'distance') {
   const crs = (data.grid.crs.length < 24 ? data.grid.crs : data.grid.crs_name).replace(/[",\n]/g, ' ') || 'm';
   const fixed = (v) => (Number.isFinite(v) ? v.toFixed(3) : '');
-  const rows = points.map(({ d, x, y, z }) => [d, data.grid.west + x * data.grid.cell_m, data.grid.north - y * data.grid.cell_m, z].map(fixed).join(','));
+  const rows = points.map(({ d, x, y, z }) =>
+    [d, data.grid.west + x * data.grid.cell_m, data.grid.north - y * data.grid.cell_m, z].map(fixed).join(','),
+  );
   return `${first} [m],x [${crs}],y [${crs}],z [m]\n${rows.join('\n')}\n`;
 }
 
@@ -55,14 +96,39 @@ function profileOf({ points: corners }, here) {
   const rivers = riversAlong(points, crossed, { heading: 'crossed', scale });
   const [from, to] = [points[0].z, points.at(-1).z];
   return {
-    title: 'Profile', line: corners, points,
-    sentence: `Profile of ${far(sum.length)}, ${far(sum.ground)} over the ground: ${high(sum.up)} up and ${high(sum.down)} down, at most ${angle(sum.steepest)}, ${counted(crossed.length, 'river')} crossed.`,
-    figures: { ...sum, rivers: crossed.map(({ d, arc, order, area }) => ({ d, arc: data.rivers.arcs.id[arc], order, area })) },
-    chart: { series: { points: points.map(({ d, z }) => [d / scale.by, z]), kind: 'area', name: 'height' },
-      what: { title: 'Height along the line', x: `distance [${scale.unit}]`, y: 'height [m]', height: 150, flags: rivers.flags, note: rivers.note } },
-    content: [facts([['length in plan', far(sum.length)], ['over the ground', far(sum.ground)], ['up, down', `${high(sum.up)}, ${high(sum.down)}`],
-      ['from, to', `${high(from)}, ${high(to)}`], ['lowest, highest', `${high(sum.low)}, ${high(sum.high)}`], ['greatest slope', angle(sum.steepest)]]),
-    rivers.list, sum.gaps && make('p', { className: 'hint', textContent: 'Where there is no land the ground counts as level.' })],
+    title: 'Profile',
+    line: corners,
+    points,
+    sentence:
+      `Profile of ${far(sum.length)}, ${far(sum.ground)} over the ground: ${high(sum.up)} up and ` +
+      `${high(sum.down)} down, at most ${angle(sum.steepest)}, ${counted(crossed.length, 'river')} crossed.`,
+    figures: {
+      ...sum,
+      rivers: crossed.map(({ d, arc, order, area }) => ({ d, arc: data.rivers.arcs.id[arc], order, area })),
+    },
+    chart: {
+      series: { points: points.map(({ d, z }) => [d / scale.by, z]), kind: 'area', name: 'height' },
+      what: {
+        title: 'Height along the line',
+        x: `distance [${scale.unit}]`,
+        y: 'height [m]',
+        height: 150,
+        flags: rivers.flags,
+        note: rivers.note,
+      },
+    },
+    content: [
+      facts([
+        ['length in plan', far(sum.length)],
+        ['over the ground', far(sum.ground)],
+        ['up, down', `${high(sum.up)}, ${high(sum.down)}`],
+        ['from, to', `${high(from)}, ${high(to)}`],
+        ['lowest, highest', `${high(sum.low)}, ${high(sum.high)}`],
+        ['greatest slope', angle(sum.steepest)],
+      ]),
+      rivers.list,
+      sum.gaps && make('p', { className: 'hint', textContent: 'Where there is no land the ground counts as level.' }),
+    ],
     saves: [['CSV', 'profile', 'csv', () => csv(points, data)]],
   };
 }
@@ -71,24 +137,50 @@ function riverProfileOf(shape, here) {
   const { data, land, rivers, finder, orders } = here;
   const [x, y] = shape.at;
   const arc = finder.nearest(x, y, Math.max(shape.reach, 6), orders);
-  if (arc < 0) return { title: 'Profile of a river', line: shape.line ?? [shape.at], missing: 'There is no river here any more.' };
+  if (arc < 0) {
+    return { title: 'Profile of a river', line: shape.line ?? [shape.at], missing: 'There is no river here any more.' };
+  }
   const river = riverOf(here, arc);
   shape.line = river.line;
   const points = riverProfile(land, river.line);
   const { length, low, high: top } = sums(points);
   const scale = scaleOf(length);
-  const joins = river.joins.map((join) => ({ ...join, d: length - nearestAlong(river.line, join) * data.grid.cell_m })).sort((a, b) => a.d - b.d);
+  const joins = river.joins
+    .map((join) => ({ ...join, d: length - nearestAlong(river.line, join) * data.grid.cell_m }))
+    .sort((a, b) => a.d - b.d);
   const along_ = riversAlong(points, joins, { heading: 'join it', scale });
   const order = Math.max(...river.arcs.map((k) => orders[k]));
   const area = rivers.arcs.ds_area[river.arcs.at(-1)];
   return {
-    title: 'Profile of a river', line: river.line, points,
-    sentence: `River of order ${order}, ${far(length)} from its source to its outlet, falls ${high(top - low)} and drains ${square(area)}; ${counted(joins.length, 'river joins it', 'rivers join it')}.`,
+    title: 'Profile of a river',
+    line: river.line,
+    points,
+    sentence:
+      `River of order ${order}, ${far(length)} from its source to its outlet, falls ${high(top - low)} and ` +
+      `drains ${square(area)}; ${counted(joins.length, 'river joins it', 'rivers join it')}.`,
     figures: { length, fall: top - low, order, area, arcs: river.arcs.map((k) => data.rivers.arcs.id[k]) },
-    chart: { series: { points: points.map(({ d, z }) => [d / scale.by, z]), kind: 'area', name: 'height' },
-      what: { title: 'From the outlet up to the farthest source', x: `distance from the outlet [${scale.unit}]`, y: 'height [m]', zeroX: true, height: 150, flags: along_.flags, note: along_.note } },
-    content: [facts([['length', far(length)], ['falls', high(top - low)], ['mean slope', unit(number((100 * (top - low)) / length, 3), '%')],
-      ['order', String(order)], ['drains', square(area)]]), along_.list],
+    chart: {
+      series: { points: points.map(({ d, z }) => [d / scale.by, z]), kind: 'area', name: 'height' },
+      what: {
+        title: 'From the outlet up to the farthest source',
+        x: `distance from the outlet [${scale.unit}]`,
+        y: 'height [m]',
+        zeroX: true,
+        height: 150,
+        flags: along_.flags,
+        note: along_.note,
+      },
+    },
+    content: [
+      facts([
+        ['length', far(length)],
+        ['falls', high(top - low)],
+        ['mean slope', unit(number((100 * (top - low)) / length, 3), '%')],
+        ['order', String(order)],
+        ['drains', square(area)],
+      ]),
+      along_.list,
+    ],
     saves: [['CSV', 'river-profile', 'csv', () => csv(points, data, 'distance from the outlet')]],
   };
 }
@@ -110,20 +202,48 @@ function sectionOf(shape, { data, land }) {
   const shares = ['¼', '½', '¾', 'all'];
   const whole = points.at(-1).d - points[0].d;
   const scale = scaleOf(whole / 5);
-  const flags = [[found.left, 'highest ground at the left'], [{ d: 0, z: points.find((p) => p.d === 0).z }, river ? 'river' : 'place'], [found.right, 'highest ground at the right']];
+  const flags = [
+    [found.left, 'highest ground at the left'],
+    [{ d: 0, z: points.find((p) => p.d === 0).z }, river ? 'river' : 'place'],
+    [found.right, 'highest ground at the right'],
+  ];
   return {
-    title, line, points,
-    sentence: across ? `Section of ${far(whole)}: ${high(found.depth)} deep below the lower side, ${far(found.widths[3].width)} wide there and ${far(found.widths[1].width)} at half the depth; sides of ${angle(found.left.slope)} left and ${angle(found.right.slope)} right.`
+    title,
+    line,
+    points,
+    sentence: across
+      ? `Section of ${far(whole)}: ${high(found.depth)} deep below the lower side, ` +
+        `${far(found.widths[3].width)} wide there and ${far(found.widths[1].width)} at half the depth; ` +
+        `sides of ${angle(found.left.slope)} left and ${angle(found.right.slope)} right.`
       : `Section of ${far(whole)}: the ground does not rise on both sides.`,
     figures: { ...found, width: whole, bearing: ((Math.atan2(ux, -uy) * 180) / Math.PI + 360) % 180 },
-    chart: { series: { points: points.map(({ d, z }) => [d / scale.by, z]), kind: 'area', name: 'height' },
-      what: { title: 'Left and right as seen looking downstream', x: `distance from the ${river ? 'river' : 'place'} [${scale.unit}]`, y: 'height [m]', height: 150,
+    chart: {
+      series: { points: points.map(({ d, z }) => [d / scale.by, z]), kind: 'area', name: 'height' },
+      what: {
+        title: 'Left and right as seen looking downstream',
+        x: `distance from the ${river ? 'river' : 'place'} [${scale.unit}]`,
+        y: 'height [m]',
+        height: 150,
         flags: flags.filter(([{ z }]) => Number.isFinite(z)).map(([{ d, z }]) => [d / scale.by, z]),
-        note: (i) => flags.find(([{ d }]) => Math.abs(d - points[i].d) < whole / 300)?.[1] } },
-    content: [facts([['floor', high(found.floor.z)], ...(across ? [['depth to the lower side', high(found.depth)]] : []), ['left side', sideOf(found.left)], ['right side', sideOf(found.right)],
-      ...(across ? [['area below the lower side', square(found.area)]] : [])]),
-    across ? table(['share of the depth', 'above the floor', 'width'], found.widths.map(({ height, width }, i) => [shares[i], high(height), far(width)]), 'Widths of the valley')
-      : make('p', { className: 'hint', textContent: 'The ground does not rise on both sides: no depth or width.' })],
+        note: (i) => flags.find(([{ d }]) => Math.abs(d - points[i].d) < whole / 300)?.[1],
+      },
+    },
+    content: [
+      facts([
+        ['floor', high(found.floor.z)],
+        ...(across ? [['depth to the lower side', high(found.depth)]] : []),
+        ['left side', sideOf(found.left)],
+        ['right side', sideOf(found.right)],
+        ...(across ? [['area below the lower side', square(found.area)]] : []),
+      ]),
+      across
+        ? table(
+            ['share of the depth', 'above the floor', 'width'],
+            found.widths.map(({ height, width }, i) => [shares[i], high(height), far(width)]),
+            'Widths of the valley',
+          )
+        : make('p', { className: 'hint', textContent: 'The ground does not rise on both sides: no depth or width.' }),
+    ],
     saves: [['CSV', 'section', 'csv', () => csv(points, data, 'distance to the right')]],
   };
 }
@@ -135,7 +255,10 @@ function catchmentOf(shape, here) {
   const [x, y] = shape.at;
   const arc = finder.nearest(x, y, Math.max(shape.reach, 1), orders);
   const column = Math.min(Math.floor(x / land.cells), land.width - 1);
-  const value = arc >= 0 ? valueOfRiver(land, water, rivers, arc, x, y) : Math.min(Math.floor(y / land.cells), land.height - 1) * land.width + column;
+  const value =
+    arc >= 0
+      ? valueOfRiver(land, water, rivers, arc, x, y)
+      : Math.min(Math.floor(y / land.cells), land.height - 1) * land.width + column;
   const line = [[((value % land.width) + 0.5) * land.cells, (Math.floor(value / land.width) + 0.5) * land.cells]];
   if (land.has && !land.has[value]) return { title, line, missing: 'There is no land here.' };
   const found = catchment(land, water, value, slope());
@@ -145,12 +268,35 @@ function catchmentOf(shape, here) {
   const crs = data.grid.crs;
   const words = (text) => `"${text.replace(/"/g, '""')}"`;
   return {
-    title, line, inside,
-    sentence: `Catchment of ${square(found.area)}, ${percent} of the land: mean height ${high(found.mean)}, highest ${high(found.high)}, mean slope ${angle(found.slope)}, longest way of water ${far(found.longest)}, ${counted(network.arcs, 'arc')} of rivers to order ${network.order}.`,
+    title,
+    line,
+    inside,
+    sentence:
+      `Catchment of ${square(found.area)}, ${percent} of the land: mean height ${high(found.mean)}, ` +
+      `highest ${high(found.high)}, mean slope ${angle(found.slope)}, longest way of water ${far(found.longest)}, ` +
+      `${counted(network.arcs, 'arc')} of rivers to order ${network.order}.`,
     figures: { ...figures, ...network, arc: arc >= 0 ? data.rivers.arcs.id[arc] : null },
-    content: [facts([['area', square(found.area)], ['share of the land', percent], ['mean height', high(found.mean)], ['highest', high(found.high)], ['relief', high(found.high - found.low)],
-      ['mean slope', angle(found.slope)], ['longest way of water', far(found.longest)], ['arcs, sources', `${number(network.arcs)}, ${number(network.sources)}`], ['highest order', network.order ? String(network.order) : '–']])],
-    saves: [['Outline', 'catchment', 'csv', () => `WKT,area_m2,crs\n${words(wkt(outline(land, inside), data.grid))},${found.area},${words(crs)}\n`]],
+    content: [
+      facts([
+        ['area', square(found.area)],
+        ['share of the land', percent],
+        ['mean height', high(found.mean)],
+        ['highest', high(found.high)],
+        ['relief', high(found.high - found.low)],
+        ['mean slope', angle(found.slope)],
+        ['longest way of water', far(found.longest)],
+        ['arcs, sources', `${number(network.arcs)}, ${number(network.sources)}`],
+        ['highest order', network.order ? String(network.order) : '–'],
+      ]),
+    ],
+    saves: [
+      [
+        'Outline',
+        'catchment',
+        'csv',
+        () => `WKT,area_m2,crs\n${words(wkt(outline(land, inside), data.grid))},${found.area},${words(crs)}\n`,
+      ],
+    ],
   };
 }
 
@@ -160,17 +306,46 @@ function distanceOf({ points, closed }, { land }) {
   const one = found.legs.length === 1 ? found.legs[0] : null;
   const height = [['over the ground', far(found.ground)], ...(closed ? [] : [['height difference', high(found.rise)]])];
   return {
-    title: 'Distance', line: closed ? [...points, points[0]] : points,
-    sentence: far(found.length) + (land.level ? '' : `, ${far(found.ground)} over the ground`) + (land.level || closed ? '' : `, height difference ${high(found.rise)}`) +
-      `${one ? `, bearing ${angle(one.bearing)}` : ` in ${found.legs.length} legs`}${closed ? `, encloses ${square(found.area)}` : ''}.`,
+    title: 'Distance',
+    line: closed ? [...points, points[0]] : points,
+    sentence:
+      far(found.length) +
+      (land.level ? '' : `, ${far(found.ground)} over the ground`) +
+      (land.level || closed ? '' : `, height difference ${high(found.rise)}`) +
+      (one ? `, bearing ${angle(one.bearing)}` : ` in ${found.legs.length} legs`) +
+      `${closed ? `, encloses ${square(found.area)}` : ''}.`,
     figures: found,
-    content: [facts([['length in plan', far(found.length)], ...(land.level ? [] : height), ...(one ? [['bearing from grid north', angle(one.bearing)], ['slope', angle(one.slope)]] : []),
-      ...(closed ? [['encloses', square(found.area)]] : [])]),
-    !one && table(['leg', 'in plan', 'ground', 'Δ height', 'bearing', 'slope'], found.legs.map((leg, i) => [String(i + 1), far(leg.length), far(leg.ground), high(leg.rise), angle(leg.bearing), angle(leg.slope)]), 'Legs')],
+    content: [
+      facts([
+        ['length in plan', far(found.length)],
+        ...(land.level ? [] : height),
+        ...(one ? [['bearing from grid north', angle(one.bearing)], ['slope', angle(one.slope)]] : []),
+        ...(closed ? [['encloses', square(found.area)]] : []),
+      ]),
+      !one &&
+        table(
+          ['leg', 'in plan', 'ground', 'Δ height', 'bearing', 'slope'],
+          found.legs.map((leg, i) => [
+            String(i + 1),
+            far(leg.length),
+            far(leg.ground),
+            high(leg.rise),
+            angle(leg.bearing),
+            angle(leg.slope),
+          ]),
+          'Legs',
+        ),
+    ],
   };
 }
 
-const found = { profile: profileOf, river: riverProfileOf, section: sectionOf, catchment: catchmentOf, distance: distanceOf };
+const found = {
+  profile: profileOf,
+  river: riverProfileOf,
+  section: sectionOf,
+  catchment: catchmentOf,
+  distance: distanceOf,
+};
 
 /**
  * Puts the measuring tools on a page. here(): {data, land, rivers, water, orders, finder}, what is shown now.
@@ -192,7 +367,14 @@ export function measuring({ view, tools, here }) {
   const hint = make('p', { className: 'hint' });
   const body = make('div');
   const foot = make('div', { className: 'do' });
-  const card = make('section', { id: 'measure', className: 'report', hidden: true }, make('header', {}, title, close), hint, body, foot);
+  const card = make(
+    'section',
+    { id: 'measure', className: 'report', hidden: true },
+    make('header', {}, title, close),
+    hint,
+    body,
+    foot,
+  );
   card.setAttribute('aria-label', 'Measurement');
   const spoken = make('p', { className: 'unseen' });
   spoken.setAttribute('role', 'status');
@@ -256,7 +438,11 @@ export function measuring({ view, tools, here }) {
       foot.append(press('Done', 'Enter', finish), press('Take back', 'Backspace', takeBack));
     } else {
       for (const [i, [label, name, ending]] of (result.saves ?? []).entries()) {
-        foot.append(press(label, `Save as ${ending.toUpperCase()}`, () => save(new Blob([result.saves[i][3]()], { type: 'text/csv' }), `${here().data.title} ${name}`, ending)));
+        foot.append(
+          press(label, `Save as ${ending.toUpperCase()}`, () =>
+            save(new Blob([result.saves[i][3]()], { type: 'text/csv' }), `${here().data.title} ${name}`, ending),
+          ),
+        );
       }
     }
   }
@@ -267,7 +453,13 @@ export function measuring({ view, tools, here }) {
   }
   function widthSlider() {
     const { grid } = here().land;
-    const slider = make('input', { type: 'range', id: 'section-width', min: 4, max: Math.ceil(0.6 * Math.max(grid.width, grid.height)), step: 'any' });
+    const slider = make('input', {
+      type: 'range',
+      id: 'section-width',
+      min: 4,
+      max: Math.ceil(0.6 * Math.max(grid.width, grid.height)),
+      step: 'any',
+    });
     const out = make('output');
     const tell = () => {
       slider.value = shape.left + shape.right;
@@ -280,11 +472,18 @@ export function measuring({ view, tools, here }) {
     });
     shape.told = tell;
     tell();
-    return make('div', { className: 'field' }, make('label', { htmlFor: 'section-width', textContent: 'Width' }), out, slider);
+    return make(
+      'div',
+      { className: 'field' },
+      make('label', { htmlFor: 'section-width', textContent: 'Width' }),
+      out,
+      slider,
+    );
   }
   function widen(left, right) {
     const { land } = here();
-    const within = (length, sign) => Math.min(Math.max(length, 2), Math.max(2, room(land, shape.x, shape.y, sign * shape.ux, sign * shape.uy)));
+    const within = (length, sign) =>
+      Math.min(Math.max(length, 2), Math.max(2, room(land, shape.x, shape.y, sign * shape.ux, sign * shape.uy)));
     Object.assign(shape, { left: within(left, -1), right: within(right, 1) });
     shape.told?.();
     renew();
@@ -360,8 +559,9 @@ export function measuring({ view, tools, here }) {
         if (!pressed || !at || !freehand) return;
         const moved = Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y);
         if (!pressed.free && moved < (touched(event) ? 10 : 5)) return;
-        if (!pressed.free && !(shape?.drawing && shape.kind === kind)) take({ kind, points: [pressed.at], drawing: true, closed: false });
-        else if (pressed.free && moved < 4) return;
+        if (!pressed.free && !(shape?.drawing && shape.kind === kind)) {
+          take({ kind, points: [pressed.at], drawing: true, closed: false });
+        } else if (pressed.free && moved < 4) return;
         Object.assign(pressed, { free: true, x: event.clientX, y: event.clientY });
         shape.points.push([at.x, at.y]);
         shape.freehand = true;
@@ -399,13 +599,23 @@ export function measuring({ view, tools, here }) {
     const arc = riverAt(at, touched(event) ? 22 : 12);
     const reach = 5 * land.cells;
     const course = arc >= 0 ? courseAt(riverOf(here(), arc).line, ...at, reach) : fallAt(land, ...at, reach);
-    take({ kind: 'section', ...sectionAcross(land, course, leastReach(land, arc >= 0 ? rivers.arcs.ds_area[arc] : 0)), river: arc >= 0 });
+    take({
+      kind: 'section',
+      ...sectionAcross(land, course, leastReach(land, arc >= 0 ? rivers.arcs.ds_area[arc] : 0)),
+      river: arc >= 0,
+    });
   }
   const takeCatchment = (at, event) => take({ kind: 'catchment', at, reach: cells(touched(event) ? 16 : 8) });
 
-  const lineTools = [lineTool({ kind: 'profile', freehand: true, start: startOfProfile }), lineTool({ kind: 'distance', closes: true })];
+  const lineTools = [
+    lineTool({ kind: 'profile', freehand: true, start: startOfProfile }),
+    lineTool({ kind: 'distance', closes: true }),
+  ];
   let handle = null; // end of the section that is drawn: -1 left, 1 right
-  const endOf = (sign) => [shape.x + sign * (sign < 0 ? shape.left : shape.right) * shape.ux, shape.y + sign * (sign < 0 ? shape.left : shape.right) * shape.uy];
+  const endOf = (sign) => [
+    shape.x + sign * (sign < 0 ? shape.left : shape.right) * shape.ux,
+    shape.y + sign * (sign < 0 ? shape.left : shape.right) * shape.uy,
+  ];
   const clicked = (set) => ({ set, down: (at) => at !== null, up: (at, event) => at && set([at.x, at.y], event) });
   const sectionTool = {
     ...clicked(takeSection),
@@ -414,7 +624,10 @@ export function measuring({ view, tools, here }) {
       const frame = view.canvas.getBoundingClientRect();
       const near = (sign) => {
         const p = view.place(...endOf(sign));
-        return p !== null && Math.hypot(p.x - event.clientX + frame.left, p.y - event.clientY + frame.top) < (touched(event) ? 24 : 11);
+        return (
+          p !== null &&
+          Math.hypot(p.x - event.clientX + frame.left, p.y - event.clientY + frame.top) < (touched(event) ? 24 : 11)
+        );
       };
       handle = shape?.kind === 'section' ? [-1, 1].find(near) ?? null : null;
       return true;
@@ -438,15 +651,23 @@ export function measuring({ view, tools, here }) {
     const turn = view.controls?.getAzimuthalAngle() ?? 0;
     const by = 4 * (far_ ? 10 : 1) * view.cellsPerPixel;
     const [right, up] = to.map((v) => v * by);
-    const next = { x: hair.x + right * Math.cos(turn) - up * Math.sin(turn), y: hair.y - right * Math.sin(turn) - up * Math.cos(turn) };
+    const next = {
+      x: hair.x + right * Math.cos(turn) - up * Math.sin(turn),
+      y: hair.y - right * Math.sin(turn) - up * Math.cos(turn),
+    };
     next.x = Math.min(Math.max(next.x, 0), grid.width);
     next.y = Math.min(Math.max(next.y, 0), grid.height);
     const seen = view.place(next.x, next.y);
-    if (seen && seen.x >= 0 && seen.y >= 0 && seen.x <= view.parent.clientWidth && seen.y <= view.parent.clientHeight) hair = next;
+    if (seen && seen.x >= 0 && seen.y >= 0 && seen.x <= view.parent.clientWidth && seen.y <= view.parent.clientHeight) {
+      hair = next;
+    }
   }
   function aim() {
     const { grid } = here().data;
-    hair ??= view.under(view.parent.clientWidth / 2, view.parent.clientHeight / 2) ?? { x: grid.width / 2, y: grid.height / 2 };
+    hair ??= view.under(view.parent.clientWidth / 2, view.parent.clientHeight / 2) ?? {
+      x: grid.width / 2,
+      y: grid.height / 2,
+    };
   }
   function key(event) {
     if (event.key === 'Escape' && !event.target.closest?.('dialog')) {
@@ -461,7 +682,9 @@ export function measuring({ view, tools, here }) {
       else aim();
       cursor = [hair.x, hair.y];
       const { land, data } = here();
-      const height = land.known(Math.min(hair.x, data.grid.width - 1e-6), Math.min(hair.y, data.grid.height - 1e-6)) ? `, ${high(land.heightAt(hair.x, hair.y))}` : '';
+      const height = land.known(Math.min(hair.x, data.grid.width - 1e-6), Math.min(hair.y, data.grid.height - 1e-6))
+        ? `, ${high(land.heightAt(hair.x, hair.y))}`
+        : '';
       speak(`cell ${Math.floor(hair.x)}, ${Math.floor(hair.y)}${height}`);
     } else if (event.key === 'Enter') {
       if (hair) tools.held.set([hair.x, hair.y], event);
@@ -473,12 +696,27 @@ export function measuring({ view, tools, here }) {
     return true;
   }
   window.addEventListener('keydown', (event) => {
-    if (event.key === 'Escape' && shape && !tools.held && !event.defaultPrevented && !typing(event) && !document.querySelector('dialog[open]')) drop();
+    if (
+      event.key === 'Escape' &&
+      shape &&
+      !tools.held &&
+      !event.defaultPrevented &&
+      !typing(event) &&
+      !document.querySelector('dialog[open]')
+    ) {
+      drop();
+    }
   });
 
   // ── Drawing over the view.
   /** Whether a place of the land is behind what stands before it. */
-  const hidden = (x, y, { x: px, y: py }) => !view.onmap && px >= 0 && py >= 0 && px <= view.parent.clientWidth && py <= view.parent.clientHeight && !view.project(x, y);
+  const hidden = (x, y, { x: px, y: py }) =>
+    !view.onmap &&
+    px >= 0 &&
+    py >= 0 &&
+    px <= view.parent.clientWidth &&
+    py <= view.parent.clientHeight &&
+    !view.project(x, y);
   function stroke(pen, place, line) {
     const { land } = here();
     const places = spread(land, line, Math.max(1, lengthOf(line) / 160), 160).map(({ x, y }) => [x, y]);
@@ -497,7 +735,9 @@ export function measuring({ view, tools, here }) {
       }
     };
     trace(false);
-    for (const [colour, wide] of [[paper, 5], [ink, 2.4]]) Object.assign(pen, { strokeStyle: colour, lineWidth: wide }).stroke();
+    for (const [colour, wide] of [[paper, 5], [ink, 2.4]]) {
+      Object.assign(pen, { strokeStyle: colour, lineWidth: wide }).stroke();
+    }
     trace(true);
     pen.setLineDash([1, 5]);
     Object.assign(pen, { strokeStyle: ink, lineWidth: 1.6 }).stroke();
@@ -513,7 +753,14 @@ export function measuring({ view, tools, here }) {
   }
   function letter(pen, at, text) {
     if (!at) return;
-    Object.assign(pen, { font: '600 12px system-ui, sans-serif', textAlign: 'center', textBaseline: 'middle', strokeStyle: paper, fillStyle: ink, lineWidth: 3.5 });
+    Object.assign(pen, {
+      font: '600 12px system-ui, sans-serif',
+      textAlign: 'center',
+      textBaseline: 'middle',
+      strokeStyle: paper,
+      fillStyle: ink,
+      lineWidth: 3.5,
+    });
     pen.strokeText(text, at.x, at.y - 14);
     pen.fillText(text, at.x, at.y - 14);
   }
@@ -541,7 +788,9 @@ export function measuring({ view, tools, here }) {
         pen.moveTo(at.x + 4 * dx, at.y + 4 * dy);
         pen.lineTo(at.x + 15 * dx, at.y + 15 * dy);
       }
-      for (const [colour, wide] of [[paper, 4.5], ['#1f2226', 1.8]]) Object.assign(pen, { strokeStyle: colour, lineWidth: wide }).stroke();
+      for (const [colour, wide] of [[paper, 4.5], ['#1f2226', 1.8]]) {
+        Object.assign(pen, { strokeStyle: colour, lineWidth: wide }).stroke();
+      }
     }
   });
 
@@ -568,18 +817,55 @@ export function measuring({ view, tools, here }) {
     },
   });
   const own = [
-    tool(lineTools[0], 'profile', 'l', 'Profile', 'Draw a line, or click its points. A click on a river gives its profile (with Shift: a point).', 'M2 15l4-7 4 4 4-8 4 6M2 18h16'),
-    tool(sectionTool, 'section', 'x', 'Cross-section', 'Click a river for the section across its valley. Drag its ends to change the width.', 'M2 5l4 2 3 8h2l3-8 4-2M9 18h2'),
-    tool(clicked(takeCatchment), 'catchment', 'c', 'Catchment', 'Click a place, or a river, for all land that drains through it.', 'M10 18c0-4-7-5-7-10 0-4 3-6 7-6s7 2 7 6c0 5-7 6-7 10zM10 18v-7M10 11L7 7M10 11l3-4'),
-    tool(lineTools[1], 'distance', 'd', 'Distance and height', 'Click the points of a way; its beginning once more closes it.', 'M2 14L14 2l4 4L6 18zM6 10l2 2M9 7l2 2M12 4l2 2'),
+    tool(
+      lineTools[0],
+      'profile',
+      'l',
+      'Profile',
+      'Draw a line, or click its points. A click on a river gives its profile (with Shift: a point).',
+      'M2 15l4-7 4 4 4-8 4 6M2 18h16',
+    ),
+    tool(
+      sectionTool,
+      'section',
+      'x',
+      'Cross-section',
+      'Click a river for the section across its valley. Drag its ends to change the width.',
+      'M2 5l4 2 3 8h2l3-8 4-2M9 18h2',
+    ),
+    tool(
+      clicked(takeCatchment),
+      'catchment',
+      'c',
+      'Catchment',
+      'Click a place, or a river, for all land that drains through it.',
+      'M10 18c0-4-7-5-7-10 0-4 3-6 7-6s7 2 7 6c0 5-7 6-7 10zM10 18v-7M10 11L7 7M10 11l3-4',
+    ),
+    tool(
+      lineTools[1],
+      'distance',
+      'd',
+      'Distance and height',
+      'Click the points of a way; its beginning once more closes it.',
+      'M2 14L14 2l4 4L6 18zM6 10l2 2M9 7l2 2M12 4l2 2',
+    ),
   ];
   for (const one of own) tools.add(one);
 
   return {
     changed() {
       const { land, water, data } = here();
-      const lacks = { profile: land.level && 'there is no land yet', section: land.level && 'there is no land yet',
-        catchment: !water.known && (land.level ? 'there is no land yet' : land.cells > 1 && !land.draft ? 'not where the page shows means of squares of cells' : 'the ways of the water are still being computed') };
+      const lacks = {
+        profile: land.level && 'there is no land yet',
+        section: land.level && 'there is no land yet',
+        catchment:
+          !water.known &&
+          (land.level
+            ? 'there is no land yet'
+            : land.cells > 1 && !land.draft
+              ? 'not where the page shows means of squares of cells'
+              : 'the ways of the water are still being computed'),
+      };
       for (const { id, button, title: name, letter: letter_ } of own) {
         button.disabled = Boolean(lacks[id]);
         button.title = lacks[id] ? `${name}: ${lacks[id]}` : `${name} (${letter_.toUpperCase()})`;

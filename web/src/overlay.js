@@ -2,7 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The drawing over the view: lines with the ways they run, shores, levels, masks, and what is being done to them.
 
-export const ink = { river: '#1d6fd0', coast: '#0b6f79', lake: '#2b7ec8', mask: '#7b4bb5', pin: '#b3261e', ridge: '#7a4a1c' };
+export const ink = {
+  river: '#1d6fd0',
+  coast: '#0b6f79',
+  lake: '#2b7ec8',
+  mask: '#7b4bb5',
+  pin: '#b3261e',
+  ridge: '#7a4a1c',
+};
 export const red = '#d3122e';
 export const orange = '#ff7800';
 const casing = 'rgb(255 255 255 / 0.85)';
@@ -24,7 +31,9 @@ function project(line, place, { thin, piece }) {
     const [x, y] = [line[i], line[i + 1]];
     const far = Math.hypot(x - kx, y - ky);
     if (far < thin && i + 2 < line.length) continue;
-    for (let k = 1, parts = Math.ceil(far / piece); k < parts; ++k) put(kx + (k / parts) * (x - kx), ky + (k / parts) * (y - ky));
+    for (let k = 1, parts = Math.ceil(far / piece); k < parts; ++k) {
+      put(kx + (k / parts) * (x - kx), ky + (k / parts) * (y - ky));
+    }
     put(x, y);
     [kx, ky] = [x, y];
   }
@@ -64,7 +73,9 @@ function along(pieces, every, at) {
       const [from, to] = length > far ? within(p[i - 2], p[i - 1], dx, dy) : [0, 1];
       const skip = (until) => (ahead += Math.max(0, Math.ceil((until - ahead) / every)) * every);
       skip(from * length);
-      for (; ahead <= to * length; ahead += every) at(p[i - 2] + (ahead / length) * dx, p[i - 1] + (ahead / length) * dy, dx / length, dy / length);
+      for (; ahead <= to * length; ahead += every) {
+        at(p[i - 2] + (ahead / length) * dx, p[i - 1] + (ahead / length) * dy, dx / length, dy / length);
+      }
       skip(length);
       ahead = Number.isFinite(length) ? ahead - length : every / 2;
     }
@@ -167,7 +178,10 @@ export class Overlay {
   pieces(line, place) {
     const { view } = this.desk;
     const by = view.cellsPerPixel;
-    return project(line, place, { thin: 0.8 * by, piece: view.onmap ? Infinity : Math.max(8 * by, 0.5 * view.land.cells) });
+    return project(line, place, {
+      thin: 0.8 * by,
+      piece: view.onmap ? Infinity : Math.max(8 * by, 0.5 * view.land.cells),
+    });
   }
 
   #of(object, place) {
@@ -183,11 +197,14 @@ export class Overlay {
   /** held: whether a drawing tool is in the hand. */
   paint(pen, place, held) {
     const { desk } = this;
-    const { drawing } = desk;
     if (document.documentElement.dataset.before === 'on') return;
     if (desk.fits) this.#drawn(pen, place, held);
-    if (desk.lies) for (const ghost of desk.ghosts) if (ghost.kind === 'pin') this.#pins(pen, place, [ghost], ghost.state === 'refused' ? red : ink.pin);
-    else this.stroke(pen, place, ghost.line, { ...ghost, colour: ghost.state === 'refused' ? red : ink[ghost.kind], width: 2.2 });
+    if (!desk.lies) return;
+    for (const ghost of desk.ghosts) {
+      const colour = ghost.state === 'refused' ? red : ink[ghost.kind];
+      if (ghost.kind === 'pin') this.#pins(pen, place, [ghost], colour);
+      else this.stroke(pen, place, ghost.line, { ...ghost, colour, width: 2.2 });
+    }
   }
 
   #drawn(pen, place, held) {
@@ -197,7 +214,9 @@ export class Overlay {
     this.#drawing = drawing;
     const hidden = new Set(desk.ghosts.filter((one) => one.state === 'sent').flatMap((one) => one.hides ?? []));
     const { clientWidth, clientHeight } = desk.view.parent;
-    if (held || drawing.objects.length > drawing.rivers.length) pen.drawImage(this.#still(place, held, hidden), 0, 0, clientWidth, clientHeight);
+    if (held || drawing.objects.length > drawing.rivers.length) {
+      pen.drawImage(this.#still(place, held, hidden), 0, 0, clientWidth, clientHeight);
+    }
     if (held) this.#choice(pen, place, hidden);
   }
 
@@ -207,7 +226,16 @@ export class Overlay {
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
     const [width, height] = [Math.round(parent.clientWidth * ratio), Math.round(parent.clientHeight * ratio)];
     const { chosen } = this.desk;
-    const stamp = [held, width, height, ratio, chosen?.height, chosen?.from, chosen?.to, ...Array.from(hidden, ({ kind, n }) => kind + n)].join(' ');
+    const stamp = [
+      held,
+      width,
+      height,
+      ratio,
+      chosen?.height,
+      chosen?.from,
+      chosen?.to,
+      ...Array.from(hidden, ({ kind, n }) => kind + n),
+    ].join(' ');
     if (this.#picture?.stamp === stamp) return this.#picture.canvas;
     const canvas = this.#picture?.canvas ?? document.createElement('canvas');
     Object.assign(canvas, { width, height });
@@ -228,7 +256,9 @@ export class Overlay {
       this.#pins(pen, place, seen(drawing.pins));
       if (held) this.#heights(pen, place, seen(drawing.pins), seen(drawing.ridges));
     }
-    if (held && drawing.kind === 'drawn') this.#lines(pen, place, seen(drawing.rivers), 1.5, (pieces, path) => heads(pieces, 90, false, path));
+    if (held && drawing.kind === 'drawn') {
+      this.#lines(pen, place, seen(drawing.rivers), 1.5, (pieces, path) => heads(pieces, 90, false, path));
+    }
     this.#picture = { stamp, canvas };
     return canvas;
   }
@@ -237,9 +267,12 @@ export class Overlay {
     if (masks.length === 0) return;
     const { clientWidth, clientHeight } = this.desk.view.parent;
     const land = this.desk.drawing.grid;
-    const within = trace(this.pieces([0, 0, land.width, 0, land.width, land.height, 0, land.height, 0, 0], place), true);
+    const sheet = trace(
+      this.pieces([0, 0, land.width, 0, land.width, land.height, 0, land.height, 0, 0], place),
+      true,
+    );
     pen.save();
-    pen.clip(within);
+    pen.clip(sheet);
     pen.fillStyle = held ? shade.held : shade.faint;
     pen.fillRect(0, 0, clientWidth, clientHeight);
     pen.globalAlpha = 1;
@@ -271,8 +304,10 @@ export class Overlay {
   /** Heights of pins and of the ends of ridges; where they are crowded, not each is written. */
   #heights(pen, place, pins, ridges) {
     const taken = new Set();
-    const all = [...pins.map(({ line, height }) => [height, line, ink.pin]),
-      ...ridges.flatMap(({ line, from, to }) => [[from, line, ink.ridge], [to, line.slice(-2), ink.ridge]])];
+    const all = [
+      ...pins.map(({ line, height }) => [height, line, ink.pin]),
+      ...ridges.flatMap(({ line, from, to }) => [[from, line, ink.ridge], [to, line.slice(-2), ink.ridge]]),
+    ];
     for (const [height, [x, y], colour] of all) {
       const p = height !== null && place(x, y);
       if (!p) continue;
@@ -314,7 +349,12 @@ export class Overlay {
       }
       const { path, pieces } = this.#of(object, place);
       const colour = object === chosen ? orange : ink[object.kind];
-      const marks = object.kind === 'river' ? heads(pieces, object === chosen ? 110 : 60) : object.kind === 'ridge' ? teeth(pieces) : null;
+      const marks =
+        object.kind === 'river'
+          ? heads(pieces, object === chosen ? 110 : 60)
+          : object.kind === 'ridge'
+            ? teeth(pieces)
+            : null;
       for (const [style, width] of [[casing, 5.4], [colour, 2.8]]) {
         pen.strokeStyle = style;
         pen.lineWidth = width;
@@ -330,9 +370,18 @@ export class Overlay {
   }
 
   /** A line that is being drawn; from wrong.i on it is red. turned: it runs from its end to its begin. */
-  stroke(pen, place, line, { closed = false, colour = ink.river, width = 2.4, dashed = false, arrows = false, turned = false, wrong = null }) {
+  stroke(
+    pen,
+    place,
+    line,
+    { closed = false, colour = ink.river, width = 2.4, dashed = false, arrows = false, turned = false, wrong = null },
+  ) {
     if (line.length < 4) return;
-    const good = wrong ? [...line.slice(0, 2 * wrong.i), wrong.x, wrong.y] : closed ? [...line, line[0], line[1]] : line;
+    const good = wrong
+      ? [...line.slice(0, 2 * wrong.i), wrong.x, wrong.y]
+      : closed
+        ? [...line, line[0], line[1]]
+        : line;
     const parts = [[good, colour]];
     if (wrong) parts.push([[wrong.x, wrong.y, ...line.slice(2 * wrong.i)], red]);
     for (const [part, tone] of parts) {

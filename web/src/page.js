@@ -44,7 +44,9 @@ function slider(id, show, change) {
 function contourSteps(span, asked) {
   const steps = [0];
   for (let power = 10 ** Math.floor(Math.log10(Math.max(span, 1e-6) / 200)); power < span; power *= 10) {
-    for (const m of [1, 2, 5]) if (m * power >= span / 120 && m * power <= span) steps.push(Number((m * power).toPrecision(3)));
+    for (const m of [1, 2, 5]) {
+      if (m * power >= span / 120 && m * power <= span) steps.push(Number((m * power).toPrecision(3)));
+    }
   }
   if (asked > 0 && !steps.includes(asked)) steps.push(asked);
   return steps.sort((a, b) => a - b);
@@ -71,7 +73,9 @@ function namesOf(data, rivers, land) {
     return { x: line.at(-2), y: line.at(-1), text: `${number(area[k] / 1e6, 3)} km²`, kind: 'outlet' };
   });
   // The highest summit first, then the two kinds in turn.
-  return Array.from({ length: Math.max(names.length, outlets.length) }, (_, i) => [names[i], outlets[i]]).flat().filter(Boolean);
+  return Array.from({ length: Math.max(names.length, outlets.length) }, (_, i) => [names[i], outlets[i]])
+    .flat()
+    .filter(Boolean);
 }
 
 function makeView(land, rivers, options) {
@@ -80,7 +84,13 @@ function makeView(land, rivers, options) {
   if (gl && Math.max(land.width, land.height) <= gl.largest) {
     const segments = Math.round(Number(asked.get('seg')));
     try {
-      return new View3d($('view'), land, rivers, { segments: segments >= 1 ? Math.min(segments, 2047) : undefined, ...options }, gl);
+      return new View3d(
+        $('view'),
+        land,
+        rivers,
+        { segments: segments >= 1 ? Math.min(segments, 2047) : undefined, ...options },
+        gl,
+      );
     } catch (error) {
       console.info(`no 3-D view: ${error.message}`);
       $('view').replaceChildren();
@@ -92,7 +102,8 @@ function makeView(land, rivers, options) {
 /**
  * Shows a scene: {data: the page's JSON, land, rivers, water}. state: what it tells about itself to whoever asks;
  * keys: further ones for the list of keys, [[key, what it does], …].
- * Gives {view, tools, replace(scene, {report: whether to write the report anew}), bindLength(L), scene: the one that is shown}.
+ * Gives {view, tools, replace(scene, {report: whether to write the report anew}), bindLength(L), scene: the one that is
+ * shown}.
  */
 export function createPage(first, state, keys = []) {
   let { data, land, rivers, water } = first;
@@ -119,8 +130,22 @@ export function createPage(first, state, keys = []) {
   let interval = 0;
   const setLift = slider('exaggeration', (v) => `× ${number(v)}`, (v) => update({ exaggeration: v }));
   const setContour = slider('contour', (v) => (v > 0 ? `${number(v)} m` : 'none'), (v) => update({}, (interval = v)));
-  slider('sun', (v) => `${v}° (${'N NE E SE S SW W NW N'.split(' ')[Math.round(v / 45)]})`, (v) => update({ azimuth: v }))(Array.from({ length: 72 }, (_, i) => 5 * i), 315);
-  slider('altitude', (v) => `${v}°`, (v) => update({ altitude: v }))(Array.from({ length: 17 }, (_, i) => 5 + 5 * i), 40);
+  slider(
+    'sun',
+    (v) => `${v}° (${'N NE E SE S SW W NW N'.split(' ')[Math.round(v / 45)]})`,
+    (v) => update({ azimuth: v }),
+  )(
+    Array.from({ length: 72 }, (_, i) => 5 * i),
+    315,
+  );
+  slider(
+    'altitude',
+    (v) => `${v}°`,
+    (v) => update({ altitude: v }),
+  )(
+    Array.from({ length: 17 }, (_, i) => 5 + 5 * i),
+    40,
+  );
   function update(change) {
     Object.assign(how, change);
     view.look({ ...how, contour: $('show-contours').checked ? interval : 0 });
@@ -142,7 +167,8 @@ export function createPage(first, state, keys = []) {
     highest = Math.max(0, ...orders);
     state.kept = now.kept;
     const along = length * data.grid.cell_m;
-    $('Lout').textContent = `${number(length)} cells (${along >= 2000 ? `${number(along / 1000, 3)} km` : `${number(along, 3)} m`})`;
+    $('Lout').textContent =
+      `${number(length)} cells (${along >= 2000 ? `${number(along / 1000, 3)} km` : `${number(along, 3)} m`})`;
     L.setAttribute('aria-valuetext', $('Lout').textContent);
     $('kept').textContent = `${number(now.kept)} of ${number(rivers.count)} links kept, to order ${highest}`;
     drawLines();
@@ -164,22 +190,47 @@ export function createPage(first, state, keys = []) {
   function drawLines() {
     const by = modes[mode].lines;
     const styles = Array.from({ length: by === 'hack' ? orderColours.length : highest }, (_, i) => {
-      const style = riverStyle(by === 'hack' ? orderColours.length - i : i + 1, by === 'hack' ? orderColours.length : highest);
+      const style = riverStyle(
+        by === 'hack' ? orderColours.length - i : i + 1,
+        by === 'hack' ? orderColours.length : highest,
+      );
       return by ? { ...style, share: Math.min(i, orderColours.length - 1) } : style;
     });
-    const shown = $('show-rivers').checked ? (by === 'hack' ? orders.map((o, k) => (o > 0 ? rivers.arcs.hack[k] : 0)) : orders) : new Int32Array(rivers.count);
+    const shown = $('show-rivers').checked
+      ? by === 'hack'
+        ? orders.map((o, k) => (o > 0 ? rivers.arcs.hack[k] : 0))
+        : orders
+      : new Int32Array(rivers.count);
     const marked = pinned >= 0 && orders[pinned] > 0 ? rivers.path(pinned).map((k) => rivers.lines[k]) : [];
     const { grid } = data;
     const what = [shown.join(), mode, highest, $('show-ridges').checked, pinned, grid.width, grid.height].join(' ');
     if (rivers === drawn.rivers && what === drawn.what) return;
     drawn = { rivers, what };
-    view.showLines({ orders: shown, styles, ridges: $('show-ridges').checked, marked, byClass: Boolean(by), colours: orderColours });
+    view.showLines({
+      orders: shown,
+      styles,
+      ridges: $('show-ridges').checked,
+      marked,
+      byClass: Boolean(by),
+      colours: orderColours,
+    });
   }
-  const can = (name) => ({ water: water.known, rivers: rivers.count > 0, other: !land.level }[modes[name].needs] ?? true);
+  const can = (name) =>
+    ({ water: water.known, rivers: rivers.count > 0, other: !land.level })[modes[name].needs] ?? true;
   /** Paints the land by the mode that is chosen, or plainly while the land or its water is not known. */
   function paint() {
-    const name = land.level ? 'none' : can(mode) && (mode !== 'difference' || other?.length === land.z.length) ? mode : 'height';
-    painted = modes[name].make({ land, water, other, slope: view.ground?.slope ?? slopes(land), metres: (z) => metres(z, land) });
+    const name = land.level
+      ? 'none'
+      : can(mode) && (mode !== 'difference' || other?.length === land.z.length)
+        ? mode
+        : 'height';
+    painted = modes[name].make({
+      land,
+      water,
+      other,
+      slope: view.ground?.slope ?? slopes(land),
+      metres: (z) => metres(z, land),
+    });
     view.paint(painted);
   }
   function colour(name) {
@@ -193,7 +244,11 @@ export function createPage(first, state, keys = []) {
   function offer() {
     const names_ = Object.keys(modes).filter((name) => can(name) || name === mode);
     if (names_.join() === Array.from(select.options, (o) => o.value).join()) return;
-    select.replaceChildren(...names_.map((name) => Object.assign(document.createElement('option'), { value: name, textContent: modes[name].label })));
+    select.replaceChildren(
+      ...names_.map((name) =>
+        Object.assign(document.createElement('option'), { value: name, textContent: modes[name].label }),
+      ),
+    );
     select.value = mode;
   }
   select.addEventListener('change', () => {
@@ -265,10 +320,23 @@ export function createPage(first, state, keys = []) {
     const col = Math.min(Math.floor(at.x), grid.width - 1);
     const row = Math.min(Math.floor(at.y), grid.height - 1);
     return {
-      col, row, px: at.x, py: at.y,
-      x: grid.west + at.x * grid.cell_m, y: grid.north - at.y * grid.cell_m,
-      z: land.known(Math.min(at.x, grid.width - 1e-6), Math.min(at.y, grid.height - 1e-6)) ? land.heightAt(at.x, at.y) : null,
-      arc: arc < 0 ? null : Object.fromEntries(Object.entries(rivers.arcs).filter(([key]) => key !== 'n').map(([key, column]) => [key, column[arc]])),
+      col,
+      row,
+      px: at.x,
+      py: at.y,
+      x: grid.west + at.x * grid.cell_m,
+      y: grid.north - at.y * grid.cell_m,
+      z: land.known(Math.min(at.x, grid.width - 1e-6), Math.min(at.y, grid.height - 1e-6))
+        ? land.heightAt(at.x, at.y)
+        : null,
+      arc:
+        arc < 0
+          ? null
+          : Object.fromEntries(
+              Object.entries(rivers.arcs)
+                .filter(([key]) => key !== 'n')
+                .map(([key, column]) => [key, column[arc]]),
+            ),
       number: arc,
     };
   }
@@ -276,13 +344,21 @@ export function createPage(first, state, keys = []) {
   function more(found) {
     if (found.z === null) return [];
     const { east, south } = view.ground?.slope ?? slopes(land);
-    const i = Math.min(Math.floor(found.row / land.cells), land.height - 1) * land.width + Math.min(Math.floor(found.col / land.cells), land.width - 1);
+    const i =
+      Math.min(Math.floor(found.row / land.cells), land.height - 1) * land.width +
+      Math.min(Math.floor(found.col / land.cells), land.width - 1);
     const steep = (Math.atan(Math.hypot(east[i], south[i])) * 180) / Math.PI;
     const facing = ((Math.atan2(-east[i], south[i]) * 180) / Math.PI + 360) % 360;
-    const words = [`slope ${steep.toFixed(1)}°` + (steep > 0.05 ? ` facing ${'N NE E SE S SW W NW N'.split(' ')[Math.round(facing / 45)]}` : '')];
+    const words = [
+      `slope ${steep.toFixed(1)}°` +
+        (steep > 0.05 ? ` facing ${'N NE E SE S SW W NW N'.split(' ')[Math.round(facing / 45)]}` : ''),
+    ];
     if (water.known) {
       const cell = data.grid.cell_m;
-      words.push(`drains ${number((water.areas[i] * cell * cell) / 1e6, 3)} km²`, `${number((water.distances[i] * cell) / 1000, 3)} km to the outlet`);
+      words.push(
+        `drains ${number((water.areas[i] * cell * cell) / 1e6, 3)} km²`,
+        `${number((water.distances[i] * cell) / 1000, 3)} km to the outlet`,
+      );
     }
     return [words.join(' · ')];
   }
@@ -296,10 +372,17 @@ export function createPage(first, state, keys = []) {
     if (all) lines.push(...more(found));
     if (found.arc) {
       const a = found.arc;
-      lines.push(`arc ${a.id}: order ${a.strahler} (Shreve ${a.shreve}, Hack ${a.hack}), ${number(a.length)} m, ${number(a.z_up)} → ${number(a.z_down)} m, drains ${number(a.ds_area / 1e6)} km²`,
-        a.survives === null ? 'never pruned' : `pruned at L > ${number(a.survives)} cells` + (a.ds ? `, flows into arc ${a.ds}` : ', ends at the outlet'));
+      lines.push(
+        `arc ${a.id}: order ${a.strahler} (Shreve ${a.shreve}, Hack ${a.hack}), ${number(a.length)} m, ` +
+          `${number(a.z_up)} → ${number(a.z_down)} m, drains ${number(a.ds_area / 1e6)} km²`,
+        a.survives === null
+          ? 'never pruned'
+          : `pruned at L > ${number(a.survives)} cells` + (a.ds ? `, flows into arc ${a.ds}` : ', ends at the outlet'),
+      );
     }
-    $('point').replaceChildren(...lines.map((text) => Object.assign(document.createElement('div'), { textContent: text })));
+    $('point').replaceChildren(
+      ...lines.map((text) => Object.assign(document.createElement('div'), { textContent: text })),
+    );
   }
   function ask(px, py) {
     const found = pick(px, py);
@@ -337,7 +420,12 @@ export function createPage(first, state, keys = []) {
 
   view.canvas.tabIndex = 0;
   view.canvas.setAttribute('role', 'application');
-  view.canvas.setAttribute('aria-label', `${view.mode === '2d' ? 'Map' : '3-D view'} of the terrain and its rivers. Arrow keys turn the view, with Shift they move it; plus and minus zoom; M shows the map; P reads what is in the middle; 0 returns to the first view.`);
+  view.canvas.setAttribute(
+    'aria-label',
+    `${view.mode === '2d' ? 'Map' : '3-D view'} of the terrain and its rivers. Arrow keys turn the view, ` +
+      'with Shift they move it; plus and minus zoom; M shows the map; P reads what is in the middle; ' +
+      '0 returns to the first view.',
+  );
   view.canvas.addEventListener('keydown', (event) => {
     const by = event.shiftKey || view.onmap
       ? { ArrowLeft: { right: -0.1 }, ArrowRight: { right: 0.1 }, ArrowUp: { up: 0.1 }, ArrowDown: { up: -0.1 } }
@@ -367,10 +455,18 @@ export function createPage(first, state, keys = []) {
     $('bpanel').setAttribute('aria-pressed', String(!off));
   });
   keysDialog($('bkeys'), [
-    ['drag, arrow keys', view.mode === '2d' ? 'move the map' : 'turn the view'], ['Shift with arrow keys', 'move it'], ['wheel, + and −', 'zoom'],
-    ['M', 'map'], ['0', 'first view'], ['P', 'read what is in the middle'],
-    ['L, X, C, D', 'measure: profile, cross-section, catchment, distance'], ['arrows, Enter', 'with such a tool: move the cross-hair, set a point'],
-    ['Backspace, Esc', 'take a point back, end the line, close the measurement'], ...keys, ['?', 'this list']]);
+    ['drag, arrow keys', view.mode === '2d' ? 'move the map' : 'turn the view'],
+    ['Shift with arrow keys', 'move it'],
+    ['wheel, + and −', 'zoom'],
+    ['M', 'map'],
+    ['0', 'first view'],
+    ['P', 'read what is in the middle'],
+    ['L, X, C, D', 'measure: profile, cross-section, catchment, distance'],
+    ['arrows, Enter', 'with such a tool: move the cross-hair, set a point'],
+    ['Backspace, Esc', 'take a point back, end the line, close the measurement'],
+    ...keys,
+    ['?', 'this list'],
+  ]);
   $('bpicture').addEventListener('click', () => {
     view.draw();
     const whole = document.createElement('canvas');
@@ -387,7 +483,9 @@ export function createPage(first, state, keys = []) {
     view.theme(name);
   };
   dark.addEventListener('change', () => theme(dark.matches ? 'dark' : 'light'));
-  $('btheme').addEventListener('click', () => theme(document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark'));
+  $('btheme').addEventListener('click', () =>
+    theme(document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark'),
+  );
 
   view.ondraw = (turn) => ($('north').style.transform = `rotate(${turn}rad)`);
   const tools = new Tools(view);
@@ -395,8 +493,15 @@ export function createPage(first, state, keys = []) {
   // Labels keep out from under what lies over the view.
   view.keepOut = () => {
     const frame = $('view').getBoundingClientRect();
-    return ['ways', 'north', 'point', 'doing', 'toolbar', 'inspector', 'measure'].flatMap((id) => $(id)?.getBoundingClientRect() ?? []).filter((b) => b.width > 0)
-      .map((b) => ({ x0: b.left - frame.left - 2, x1: b.right - frame.left + 2, y0: b.top - frame.top - 2, y1: b.bottom - frame.top + 2 }));
+    return ['ways', 'north', 'point', 'doing', 'toolbar', 'inspector', 'measure']
+      .flatMap((id) => $(id)?.getBoundingClientRect() ?? [])
+      .filter((b) => b.width > 0)
+      .map((b) => ({
+        x0: b.left - frame.left - 2,
+        x1: b.right - frame.left + 2,
+        y0: b.top - frame.top - 2,
+        y1: b.bottom - frame.top + 2,
+      }));
   };
   view.onlost = () => tellAll('The graphics device was lost; the view returns when the browser gives it back.');
   view.onfound = () => tellAll('');
@@ -421,7 +526,9 @@ export function createPage(first, state, keys = []) {
     $('field-L').hidden = rivers.count === 0 && !bound;
     $('show-rivers').parentElement.hidden = rivers.count === 0;
     $('label-ridges').hidden = rivers.ridges.length === 0;
-    for (const id of ['exaggeration', 'contour', 'sun', 'altitude', 'show-contours', 'colour']) $(id).disabled = land.level;
+    for (const id of ['exaggeration', 'contour', 'sun', 'altitude', 'show-contours', 'colour']) {
+      $(id).disabled = land.level;
+    }
     $('exaggeration').disabled ||= view.mode === '2d';
     offer();
     state.water = water;
@@ -446,8 +553,8 @@ export function createPage(first, state, keys = []) {
   new ResizeObserver(() => view.resize()).observe($('view'));
 
   /**
-   * Shows another scene from where the view stands; heights, contours, colours and light stay as they are chosen. home: land that comes
-   * or goes is looked at afresh.
+   * Shows another scene from where the view stands; heights, contours, colours and light stay as they are chosen. home:
+   * land that comes or goes is looked at afresh.
    */
   function replace(next, { report = true, home = true } = {}) {
     const before = scene;
@@ -515,7 +622,9 @@ function heightsOf(html, land) {
   if (!text('data')) throw new Error('this is not a report page of thalweg');
   const data = JSON.parse(text('data'));
   const there = new Land(data.grid, data.heights, text('heights') ?? '', data.sea ?? null);
-  const same = ['width', 'height', 'cell_m', 'west', 'north'].every((key) => data.grid[key] === land.grid[key]) && there.width === land.width;
+  const same =
+    ['width', 'height', 'cell_m', 'west', 'north'].every((key) => data.grid[key] === land.grid[key]) &&
+    there.width === land.width;
   if (!same || there.level) throw new Error('it shows another grid: a difference needs the same cells');
   return there.z;
 }

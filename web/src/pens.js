@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pens: a line is drawn, freehand or point by point, and sent. Nothing waits for the program: the line stays where it was drawn
-// until the program's own takes its place, or comes back into the hand when it is refused.
+// Pens: a line is drawn, freehand or point by point, and sent. Nothing waits for the program: the line stays where it
+// was drawn until the program's own takes its place, or comes back into the hand when it is refused.
 import { nameOf } from './desk.js';
 import { lengthOf, meeting, upTo } from './drawing.js';
 import { apart, near, round, Tool } from './hand.js';
@@ -32,14 +32,20 @@ export class Pen extends Tool {
     this.desk.onchange();
   }
 
-  /** Whether a line that ends here ends where it began: a coast is closed where its ends are a few cells or a seventh of its length apart. */
+  /**
+   * Whether a line that ends here ends where it began: a coast is closed where its ends are a few cells or a seventh of
+   * its length apart.
+   */
   get #rounds() {
     const { line } = this;
     if (!this.closes || line.length < 6) return false;
     if (this.#begin?.kind === 'border' && this.#target?.kind === 'border') return false;
     const at = this.#tip ?? { x: line.at(-2), y: line.at(-1) };
     const reach = near * this.desk.scale(at);
-    return Math.hypot(at.x - line[0], at.y - line[1]) < (this.closes === 'maybe' ? Math.max(reach, 6, 0.15 * this.#along) : reach);
+    return (
+      Math.hypot(at.x - line[0], at.y - line[1]) <
+      (this.closes === 'maybe' ? Math.max(reach, 6, 0.15 * this.#along) : reach)
+    );
   }
 
   #snap(at) {
@@ -60,7 +66,9 @@ export class Pen extends Tool {
         this.#add({ x, y, kind: 'own' });
         return;
       }
-      if (met) this.#crossings.push({ ...met, i: line.length / 2, along: this.#along + Math.hypot(met.x - ax, met.y - ay) });
+      if (met) {
+        this.#crossings.push({ ...met, i: line.length / 2, along: this.#along + Math.hypot(met.x - ax, met.y - ay) });
+      }
       this.#along += Math.hypot(x - ax, y - ay);
     }
     line.push(x, y);
@@ -69,7 +77,13 @@ export class Pen extends Tool {
   /** Where a new piece of the line meets what it must not cross. */
   #met(ax, ay, x, y) {
     const reach = 2 * near * this.desk.scale({ x: ax, y: ay });
-    const crossed = this.desk.drawing.crossed(ax, ay, x, y, (object) => object.kind === this.avoids && !(object === this.#begin?.object && this.#along < reach));
+    const crossed = this.desk.drawing.crossed(
+      ax,
+      ay,
+      x,
+      y,
+      (object) => object.kind === this.avoids && !(object === this.#begin?.object && this.#along < reach),
+    );
     if (crossed) return crossed;
     const { line } = this;
     for (let i = 2; i + 3 < line.length; i += 2) {
@@ -88,7 +102,9 @@ export class Pen extends Tool {
     if (tip && this.line.length) {
       const [ax, ay] = this.line.slice(-2);
       const met = this.#met(ax, ay, tip.x, tip.y);
-      if (met && (!met.object || met.object !== this.#target?.object)) all.push({ ...met, i: this.line.length / 2, along: total + Math.hypot(met.x - ax, met.y - ay) });
+      if (met && (!met.object || met.object !== this.#target?.object)) {
+        all.push({ ...met, i: this.line.length / 2, along: total + Math.hypot(met.x - ax, met.y - ay) });
+      }
       total += Math.hypot(tip.x - ax, tip.y - ay);
     }
     const slack = 1.5 * near * this.desk.scale(tip ?? { x: this.line[0], y: this.line[1] });
@@ -98,8 +114,14 @@ export class Pen extends Tool {
   #warn(wrong) {
     if (Boolean(wrong) === this.#warned) return;
     this.#warned = Boolean(wrong);
-    if (wrong) this.desk.ontell(wrong.object ? `the ${this.kind} would cross ${nameOf(wrong.object).toLowerCase()} here` : `the ${this.kind} would cross itself here`, { at: [wrong.x, wrong.y], bad: true });
-    else this.desk.quiet();
+    if (wrong) {
+      this.desk.ontell(
+        wrong.object
+          ? `the ${this.kind} would cross ${nameOf(wrong.object).toLowerCase()} here`
+          : `the ${this.kind} would cross itself here`,
+        { at: [wrong.x, wrong.y], bad: true },
+      );
+    } else this.desk.quiet();
   }
 
   #start(at) {
@@ -212,7 +234,9 @@ export class Pen extends Tool {
     const before = this.#target;
     this.#tip = at;
     this.#target = at && this.#snap(at);
-    if (this.desk.cursor && this.#target && this.#target.object !== before?.object) this.desk.speak(`meets ${this.#target.object ? nameOf(this.#target.object) : 'the border'}`);
+    if (this.desk.cursor && this.#target && this.#target.object !== before?.object) {
+      this.desk.speak(`meets ${this.#target.object ? nameOf(this.#target.object) : 'the border'}`);
+    }
     if (this.line.length && !this.#refused) this.#judge();
   }
 
@@ -249,8 +273,12 @@ export class Pen extends Tool {
   // ── Keys.
   press(at, key) {
     const [x, y] = this.line.slice(-2);
-    if (this.#refused || (key === 'Enter' && this.line.length && Math.hypot(x - at.x, y - at.y) < 2 * this.desk.scale(at))) this.finish();
-    else this.#click(at, false);
+    if (
+      this.#refused ||
+      (key === 'Enter' && this.line.length && Math.hypot(x - at.x, y - at.y) < 2 * this.desk.scale(at))
+    ) {
+      this.finish();
+    } else this.#click(at, false);
   }
 
   key(event) {
@@ -278,7 +306,9 @@ export class Pen extends Tool {
     if (cut) line = upTo(line, last.i, last);
     else if (this.#target) line = [...line, this.#target.x, this.#target.y];
     const first = this.#crossings[0];
-    if (first?.object && !(cut && first === last) && !this.#begin && first.along <= slack) line = [first.x, first.y, ...line.slice(2 * first.i)];
+    if (first?.object && !(cut && first === last) && !this.#begin && first.along <= slack) {
+      line = [first.x, first.y, ...line.slice(2 * first.i)];
+    }
     return line;
   }
 
@@ -318,8 +348,19 @@ export class Pen extends Tool {
       const tip = this.#gesture ? null : this.#target ?? this.#tip;
       const whole = tip && !this.#refused ? [...line, tip.x, tip.y] : line;
       const wrong = this.#refused ? { i: 1, x: line[0], y: line[1] } : this.#wrong(tip);
-      overlay.stroke(pen, place, whole, { colour: ink[this.kind], wrong, arrows: this.kind === 'river', turned: this.#turned() });
-      if (whole.length >= 6 && (this.closes === true || this.#rounds)) overlay.stroke(pen, place, [...whole.slice(-2), line[0], line[1]], { colour: ink[this.kind], width: 1, dashed: true });
+      overlay.stroke(pen, place, whole, {
+        colour: ink[this.kind],
+        wrong,
+        arrows: this.kind === 'river',
+        turned: this.#turned(),
+      });
+      if (whole.length >= 6 && (this.closes === true || this.#rounds)) {
+        overlay.stroke(pen, place, [...whole.slice(-2), line[0], line[1]], {
+          colour: ink[this.kind],
+          width: 1,
+          dashed: true,
+        });
+      }
       for (const k of this.#marks) {
         const p = place(line[k], line[k + 1]);
         if (p) dot(pen, p, 3.4, { stroke: this.#refused ? red : ink[this.kind] });

@@ -24,15 +24,25 @@ export function knickpoints(points) {
   if (!(fall > 0 && reach > 0)) return [];
   const at = (index) => {
     const [d, z] = points[index];
-    return { index, d, above: (heightAt(points, d + reach) - z) / reach, below: (z - heightAt(points, d - reach)) / reach };
+    return {
+      index,
+      d,
+      above: (heightAt(points, d + reach) - z) / reach,
+      below: (z - heightAt(points, d - reach)) / reach,
+    };
   };
   const lip = ({ index, d, above, below }) => {
     const over = (p) => p[1] - points[index][1] - 0.5 * (above + below) * (p[0] - d);
-    const near = [...points.keys()].filter((i) => Math.abs(points[i][0] - d) <= reach && points[i][0] >= reach && points[i][0] + reach <= length);
+    const near = [...points.keys()].filter(
+      (i) => Math.abs(points[i][0] - d) <= reach && points[i][0] >= reach && points[i][0] + reach <= length,
+    );
     return near.reduce((best, i) => (over(points[i]) > over(points[best]) ? i : best), index);
   };
-  const found = points.map((_, index) => at(index))
-    .filter(({ d, above, below }) => d >= reach && d + reach <= length && below >= 2.5 * above && below * reach >= fall / 50)
+  const found = points
+    .map((_, index) => at(index))
+    .filter(
+      ({ d, above, below }) => d >= reach && d + reach <= length && below >= 2.5 * above && below * reach >= fall / 50,
+    )
     .sort((a, b) => b.below - b.above - a.below + a.above);
   const chosen = [];
   for (const one of found) if (chosen.every((other) => Math.abs(other.d - one.d) > reach)) chosen.push(one);
@@ -57,8 +67,13 @@ export function profiles(data, actions) {
     const slope = (v) => `${number(100 * v, 2)}\u00a0%`;
     const sentence = ({ above, below }) => `knickpoint: ${slope(above)} above it, ${slope(below)} below`;
     const line = plot([{ points: points.map(([d, z]) => [along(d), z]), kind: 'area', name: 'height' }], {
-      title: `${index ? `Longest river of basin ${shown.basin}` : 'Main stem'}, from the outlet up to its farthest source`,
-      x: `distance from the outlet [${km ? 'km' : 'm'}]`, y: 'height [m]', zeroX: true, height: 176, flags: steps.map(({ index: i }) => [along(points[i][0]), points[i][1]]),
+      title:
+        (index ? `Longest river of basin ${shown.basin}` : 'Main stem') + ', from the outlet up to its farthest source',
+      x: `distance from the outlet [${km ? 'km' : 'm'}]`,
+      y: 'height [m]',
+      zeroX: true,
+      height: 176,
+      flags: steps.map(({ index: i }) => [along(points[i][0]), points[i][1]]),
       note: (i) => {
         const near = steps.find((step) => Math.abs(step.d - points[i][0]) < points.at(-1)[0] / 200);
         return near && sentence(near);
@@ -67,25 +82,49 @@ export function profiles(data, actions) {
     });
     read = line.read;
     const go = ({ index: i, d }) => {
-      const button = make('button', { type: 'button', className: 'link', textContent: `${number(along(d), 3)}\u00a0${km ? 'km' : 'm'}` });
+      const button = make('button', {
+        type: 'button',
+        className: 'link',
+        textContent: `${number(along(d), 3)}\u00a0${km ? 'km' : 'm'}`,
+      });
       button.title = sentence(steps.find((step) => step.index === i));
       button.addEventListener('click', () => actions.flyTo(points[i][2], points[i][3]));
-      for (const [event, to] of [['pointerenter', i], ['focus', i], ['pointerleave', null], ['blur', null]]) button.addEventListener(event, () => read(to));
+      for (const [event, to] of [['pointerenter', i], ['focus', i], ['pointerleave', null], ['blur', null]]) {
+        button.addEventListener(event, () => read(to));
+      }
       return button;
     };
-    const list = steps.length ? make('p', { className: 'hint' }, make('span', { className: 'flag-sign', textContent: '▼ ' }), `${steps.length === 1 ? 'Knickpoint' : 'Knickpoints'} at `, ...steps.flatMap((step, i) => (i ? [', ', go(step)] : [go(step)]))) : '';
+    const list = steps.length
+      ? make(
+          'p',
+          { className: 'hint' },
+          make('span', { className: 'flag-sign', textContent: '▼ ' }),
+          `${steps.length === 1 ? 'Knickpoint' : 'Knickpoints'} at `,
+          ...steps.flatMap((step, i) => (i ? [', ', go(step)] : [go(step)])),
+        )
+      : '';
     place.replaceChildren(line.figure, list);
   }
   if (!stems.length) return { element: null, hover: () => {} };
   choice.append(...stems.map((stem, i) => {
     const length = stem.points[0][0];
-    return make('option', { value: i, textContent: `${i ? `basin ${stem.basin}` : 'main stem'}, ${length >= 2000 ? `${number(length / 1000, 3)} km` : `${number(length, 3)} m`}` });
+    return make('option', {
+      value: i,
+      textContent:
+        (i ? `basin ${stem.basin}, ` : 'main stem, ') +
+        (length >= 2000 ? `${number(length / 1000, 3)} km` : `${number(length, 3)} m`),
+    });
   }));
   choice.addEventListener('change', () => show(Number(choice.value)));
   show(0);
   const { arcs } = data.rivers;
   return {
-    element: section('Long profile', stems.length > 1 && make('p', { className: 'choice' }, make('label', { htmlFor: 'stem', textContent: 'River' }), choice), place),
+    element: section(
+      'Long profile',
+      stems.length > 1 &&
+        make('p', { className: 'choice' }, make('label', { htmlFor: 'stem', textContent: 'River' }), choice),
+      place,
+    ),
     /** The pointer on the land: of a basin's arcs its longest river has Hack's order 1. */
     hover(x, y, arc) {
       if (!(arc >= 0 && arcs.basin[arc] === shown.basin && arcs.hack[arc] === 1)) return read(null);

@@ -4,8 +4,19 @@
 import { make } from './elements.js';
 import { field, limits } from './fields.js';
 
-const titles = { grid: 'Grid', network: 'Rivers', 'network.dla': 'Rivers: DLA cluster', 'network.tokunaga': 'Rivers: Tokunaga tree', 'network.forest': 'Rivers: forest from the coast',
-  'network.lines': 'Rivers: lines of a file', skeleton: 'Ridges and points', surface: 'Surface', statistics: 'Statistics', detail: 'Detail', output: 'Output' };
+const titles = {
+  grid: 'Grid',
+  network: 'Rivers',
+  'network.dla': 'Rivers: DLA cluster',
+  'network.tokunaga': 'Rivers: Tokunaga tree',
+  'network.forest': 'Rivers: forest from the coast',
+  'network.lines': 'Rivers: lines of a file',
+  skeleton: 'Ridges and points',
+  surface: 'Surface',
+  statistics: 'Statistics',
+  detail: 'Detail',
+  output: 'Output',
+};
 
 function titleOf(section) {
   const [, base, number] = /^([^0-9]*?)(?:\.(\d+))?$/.exec(section);
@@ -30,16 +41,37 @@ export function recipeForm(keys, act, leave) {
   const used = make('div');
   const unused = make('div');
   const rest = make('details', { className: 'unused' }, make('summary', { textContent: 'Not in this recipe' }), unused);
-  const nothing = make('p', { className: 'hint', textContent: 'No key has this in its name or meaning.', hidden: true });
+  const nothing = make('p', {
+    className: 'hint',
+    textContent: 'No key has this in its name or meaning.',
+    hidden: true,
+  });
   const help = make('div', { id: 'key-help' });
-  const element = make('section', { id: 'keys-form' }, make('h2', { textContent: 'Recipe' }), search, nothing, used, rest, help);
+  const element = make(
+    'section',
+    { id: 'keys-form' },
+    make('h2', { textContent: 'Recipe' }),
+    search,
+    nothing,
+    used,
+    rest,
+    help,
+  );
   element.setAttribute('aria-label', 'Recipe');
 
   function describe(path) {
     const key = byPath.get(keyOf(path));
     if (!key || help.dataset.path === path) return;
     help.dataset.path = path;
-    help.replaceChildren(make('b', { textContent: path }), ` ${key.meaning}${key.unit ? ` [${key.unit}]` : ''}`, make('small', { textContent: [limits(key), key.used_by && !(path in values) && `needs ${key.used_by}`].filter(Boolean).join('; ') }));
+    help.replaceChildren(
+      make('b', { textContent: path }),
+      ` ${key.meaning}${key.unit ? ` [${key.unit}]` : ''}`,
+      make('small', {
+        textContent: [limits(key), key.used_by && !(path in values) && `needs ${key.used_by}`]
+          .filter(Boolean)
+          .join('; '),
+      }),
+    );
   }
   for (const kind of ['focusin', 'pointerover']) {
     element.addEventListener(kind, ({ target }) => {
@@ -51,9 +83,12 @@ export function recipeForm(keys, act, leave) {
   function section(name) {
     if (sections.has(name)) return sections.get(name);
     const number = /\.\d+$/.exec(name)?.[0] ?? '';
-    const fields = keys.filter((key) => sectionOf(key.path) === name.slice(0, name.length - number.length) && !leave.includes(key.path))
+    const fields = keys
+      .filter((key) => sectionOf(key.path) === name.slice(0, name.length - number.length) && !leave.includes(key.path))
       .map((key) => field(key, number ? `${name}.${key.path.split('.').at(-1)}` : key.path, act));
-    for (const { element: e } of fields) for (const c of e.querySelectorAll('input, select')) c.setAttribute('aria-describedby', help.id);
+    for (const { element: e } of fields) {
+      for (const c of e.querySelectorAll('input, select')) c.setAttribute('aria-describedby', help.id);
+    }
     const set = make('div');
     const more = make('details', { className: 'more-keys' }, make('summary', { textContent: 'Without effect now' }));
     const remove = make('button', { type: 'button', className: 'remove', textContent: `Take “${titleOf(name)}” out` });
@@ -64,7 +99,15 @@ export function recipeForm(keys, act, leave) {
       await act.unset(name).catch((error) => Object.assign(refused, { textContent: error.message, hidden: false }));
     });
     const many = make('small', { className: 'many' });
-    const whole = make('details', { className: 'keys-section' }, make('summary', {}, titleOf(name), many), set, more, remove, refused);
+    const whole = make(
+      'details',
+      { className: 'keys-section' },
+      make('summary', {}, titleOf(name), many),
+      set,
+      more,
+      remove,
+      refused,
+    );
     const made = { name, fields, set, more, remove, many, whole };
     sections.set(name, made);
     return made;
@@ -72,18 +115,24 @@ export function recipeForm(keys, act, leave) {
 
   /** Puts children in an order, touching none that are in place: moving one would take its focus. */
   function order(parent, children) {
-    children.forEach((child, i) => parent.children[i] !== child && parent.insertBefore(child, parent.children[i] ?? null));
+    children.forEach(
+      (child, i) => parent.children[i] !== child && parent.insertBefore(child, parent.children[i] ?? null),
+    );
     while (parent.children.length > children.length) parent.lastElementChild.remove();
   }
 
   function show({ values: given, sections: now }) {
     values = given;
     const all = [...new Set(keys.map((key) => sectionOf(key.path)))].filter(Boolean);
-    const inUse = all.flatMap((name) => now.filter((one) => one === name || (one.startsWith(`${name}.`) && /^\d+$/.test(one.slice(name.length + 1)))));
+    const inUse = all.flatMap((name) =>
+      now.filter((one) => one === name || (one.startsWith(`${name}.`) && /^\d+$/.test(one.slice(name.length + 1)))),
+    );
     for (const name of now) if (!inUse.includes(name) && name) inUse.push(name);
     // Of numbered sections another may be added.
     const others = all.flatMap((name) => {
-      const numbers = inUse.filter((one) => one !== name && keyOf(`${one}.`) === `${name}.`).map((one) => Number(one.slice(name.length + 1)));
+      const numbers = inUse
+        .filter((one) => one !== name && keyOf(`${one}.`) === `${name}.`)
+        .map((one) => Number(one.slice(name.length + 1)));
       return inUse.includes(name) ? [] : numbers.length ? [`${name}.${Math.max(...numbers) + 1}`] : [name];
     });
     for (const name of [...inUse, ...others]) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lines as the ground's shader draws them: for each place of a raster the nearest segment, so that lines lie on the land at
-// every zoom, as wide as their water, and join where they meet.
+// Lines as the ground's shader draws them: for each place of a raster the nearest segment, so that lines lie on the
+// land at every zoom, as wide as their water, and join where they meet.
 
 export const reach = 5; // [places] around a line in which it is known
 const usual = 1024; // places along the longer side; of large grids one a cell, to twice as many
@@ -17,7 +17,10 @@ export class LineField {
     this.away = new Float32Array(this.width * this.height);
   }
 
-  /** groups: [{lines, half [places], pixels, share: [0, 1] of the colour, kind: 0 river, 1 ridge, 2 mark}], the later on top. */
+  /**
+   * groups: [{lines, half [places], pixels, share: [0, 1] of the colour, kind: 0 river, 1 ridge, 2 mark}], the later on
+   * top.
+   */
   build(groups) {
     const { cells, width, height, nearest, away } = this;
     nearest.fill(0);

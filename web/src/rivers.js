@@ -98,7 +98,9 @@ export class ArcFinder {
 
   /** Segments about a straight line, some of them more than once: [arc, index of its end in the arc's line]. */
   * between(ax, ay, bx, by) {
-    const [c0, c1, r0, r1] = [Math.min(ax, bx), Math.max(ax, bx), Math.min(ay, by), Math.max(ay, by)].map((v) => Math.floor(v / this.tile));
+    const [c0, c1, r0, r1] = [Math.min(ax, bx), Math.max(ax, bx), Math.min(ay, by), Math.max(ay, by)].map((v) =>
+      Math.floor(v / this.tile),
+    );
     for (let r = r0; r <= r1; ++r) {
       for (let c = c0; c <= c1; ++c) {
         const list = this.tiles.get(r * this.columns + c) ?? [];

@@ -16,11 +16,55 @@ import { Water } from './water.js';
 
 const $ = (id) => document.getElementById(id);
 const root = document.documentElement;
-const files = ['dem.tif', 'network.gpkg', 'report.html', 'recipe.toml', 'contours.gpkg', 'catchments.gpkg', 'map.png', 'report.json'];
-const noArcs = { id: [], ds: [], basin: [], strahler: [], shreve: [], hack: [], survives: [], length: [], z_up: [], z_down: [], us_area: [], ds_area: [], n: [] };
-const noData = { command: '', recipe: '', crs: '', contour_m: 0, rivers: { step: 1, prune: 0, arcs: noArcs }, ridges: null, sea: null, lakes: false, summits: [], profiles: [],
-  curve: null, hypsometry: null, laws: { rows: [], support: null, orders: [], dem_orders: [], hack: {}, concavity: {} }, relief: null, statistics: [], given: [], checks: [],
-  timings: [], warnings: { count: 0, shown: [] }, repairs: { count: 0, shown: [] }, findings: { count: 0, shown: [] }, notes: [] };
+const files = [
+  'dem.tif',
+  'network.gpkg',
+  'report.html',
+  'recipe.toml',
+  'contours.gpkg',
+  'catchments.gpkg',
+  'map.png',
+  'report.json',
+];
+const noArcs = {
+  id: [],
+  ds: [],
+  basin: [],
+  strahler: [],
+  shreve: [],
+  hack: [],
+  survives: [],
+  length: [],
+  z_up: [],
+  z_down: [],
+  us_area: [],
+  ds_area: [],
+  n: [],
+};
+const noData = {
+  command: '',
+  recipe: '',
+  crs: '',
+  contour_m: 0,
+  rivers: { step: 1, prune: 0, arcs: noArcs },
+  ridges: null,
+  sea: null,
+  lakes: false,
+  summits: [],
+  profiles: [],
+  curve: null,
+  hypsometry: null,
+  laws: { rows: [], support: null, orders: [], dem_orders: [], hack: {}, concavity: {} },
+  relief: null,
+  statistics: [],
+  given: [],
+  checks: [],
+  timings: [],
+  warnings: { count: 0, shown: [] },
+  repairs: { count: 0, shown: [] },
+  findings: { count: 0, shown: [] },
+  notes: [],
+};
 
 const button = (text, title, click) => {
   const b = make('button', { type: 'button', textContent: text, title });
@@ -65,7 +109,12 @@ export function openStudio(about, state) {
     if (!running && !bad && text) fading = setTimeout(() => (doing.hidden = true), stay);
   }
   const log = make('ol', { className: 'said' });
-  const messages = make('details', { className: 'messages', hidden: true }, make('summary', { textContent: 'Messages' }), log);
+  const messages = make(
+    'details',
+    { className: 'messages', hidden: true },
+    make('summary', { textContent: 'Messages' }),
+    log,
+  );
   let warned = []; // items of the last job's warnings, which stand first
   function count() {
     messages.hidden = log.children.length === 0;
@@ -79,8 +128,11 @@ export function openStudio(about, state) {
   function warn(findings) {
     state.findings = findings;
     for (const one of warned) one.remove();
-    warned = findings.filter(({ severity }) => severity === 'warning')
-      .map(({ kind, text, remedy }) => make('li', { className: 'careful', title: kind, textContent: remedy ? `${text}. ${remedy}.` : text }));
+    warned = findings
+      .filter(({ severity }) => severity === 'warning')
+      .map(({ kind, text, remedy }) =>
+        make('li', { className: 'careful', title: kind, textContent: remedy ? `${text}. ${remedy}.` : text }),
+      );
     log.prepend(...warned);
     count();
   }
@@ -92,7 +144,9 @@ export function openStudio(about, state) {
   let finished = 0; // job that ended last
   let sent = null; // the last edit: {at, job}, for the times
   state.times = { first: null, full: null };
-  Object.defineProperty(state, 'busy', { get: () => unanswered > 0 || working || trial.waits || awaited > finished || (sheet?.desk.waits ?? false) });
+  Object.defineProperty(state, 'busy', {
+    get: () => unanswered > 0 || working || trial.waits || awaited > finished || (sheet?.desk.waits ?? false),
+  });
   Object.defineProperty(state, 'job', { get: () => link.job });
   function changes() {
     page?.view.hurry?.(true);
@@ -165,16 +219,34 @@ export function openStudio(about, state) {
   // ── The panel.
   const undo = button('Undo', 'Undo (Ctrl+Z)', () => sheet?.desk.recall() || quietly(ask({ do: 'undo' })));
   const redo = button('Redo', 'Redo (Ctrl+Shift+Z, Ctrl+Y)', () => quietly(ask({ do: 'redo' })));
-  const compare = make('button', { type: 'button', textContent: 'Before', title: 'Hold to see the terrain before the last edit (B)', disabled: true });
+  const compare = make('button', {
+    type: 'button',
+    textContent: 'Before',
+    title: 'Hold to see the terrain before the last edit (B)',
+    disabled: true,
+  });
   compare.setAttribute('aria-pressed', 'false');
-  const tools = make('div', { className: 'tools' }, undo, redo, compare, button('Export…', 'Write files', () => exporting.showModal()));
+  const tools = make(
+    'div',
+    { className: 'tools' },
+    undo,
+    redo,
+    compare,
+    button('Export…', 'Write files', () => exporting.showModal()),
+  );
   tools.setAttribute('role', 'toolbar');
   tools.setAttribute('aria-label', 'Edits');
 
   const seed = make('input', { type: 'number', id: 'seed', min: 0, step: 1, autocomplete: 'off' });
   seed.addEventListener('change', () => seed.value !== '' && quietly(act.set('seed', seed.value)));
-  const chance = button('New seed', 'Another terrain of the same recipe', () => quietly(act.set('seed', String(1 + Math.floor(Math.random() * 99999)))));
-  const source = make('select', { id: 'source' }, ...(key('network.source')?.choices ?? []).map((value) => make('option', { value, textContent: value })));
+  const chance = button('New seed', 'Another terrain of the same recipe', () =>
+    quietly(act.set('seed', String(1 + Math.floor(Math.random() * 99999)))),
+  );
+  const source = make(
+    'select',
+    { id: 'source' },
+    ...(key('network.source')?.choices ?? []).map((value) => make('option', { value, textContent: value })),
+  );
   source.addEventListener('change', () => quietly(act.set('network.source', source.value)));
   const branch = 'network.dla.branch';
   const cluster = clusterPicture(key(branch).choices, (arm) => quietly(act.set(branch, arm)));
@@ -189,7 +261,16 @@ export function openStudio(about, state) {
   const lengths = $('field-L');
   lengths.hidden = true;
   lengths.querySelector('label').textContent = 'Prune streams below';
-  side.append($('title'), tools, make('div', { id: 'length' }, lengths), first, view, form.element, messages, $('foot'));
+  side.append(
+    $('title'),
+    tools,
+    make('div', { id: 'length' }, lengths),
+    first,
+    view,
+    form.element,
+    messages,
+    $('foot'),
+  );
   document.body.prepend(side);
   view.hidden = true;
   const toggle = button('Recipe', 'Show or hide the recipe', () => {
@@ -209,8 +290,9 @@ export function openStudio(about, state) {
     },
     changed(value) {
       drawnL = false;
-      if (Number(value) === Number(plain(current.values['network.prune'] ?? now?.data.rivers.prune))) act.trying('network.prune', value);
-      else quietly(act.set('network.prune', value));
+      if (Number(value) === Number(plain(current.values['network.prune'] ?? now?.data.rivers.prune))) {
+        act.trying('network.prune', value);
+      } else quietly(act.set('network.prune', value));
     },
   };
   $('L').addEventListener('pointerup', () => setTimeout(() => drawnL && L.changed($('L').value)));
@@ -226,23 +308,40 @@ export function openStudio(about, state) {
     source.parentElement.hidden = !('network.source' in values);
     cluster.mark(plain(values[branch] ?? 'largest'));
     // Left out, it is what the rivers were pruned at.
-    const prune = 'network.prune' in values ? values['network.prune'] ?? String(now?.data.rivers.prune ?? 0) : undefined;
+    const prune =
+      'network.prune' in values ? (values['network.prune'] ?? String(now?.data.rivers.prune ?? 0)) : undefined;
     L.least = Number(prune) < 1 ? 0 : 1;
     lengths.hidden = !page || prune === undefined;
-    if (!drawnL) page?.bindLength(prune === undefined ? null : L, prune === undefined ? undefined : Number(plain(prune)));
-    $('L').title = prune === undefined ? '' : `network.prune${isStandard(key('network.prune') ?? { type: '', standard: '' }, prune) ? ', the default' : ''}`;
+    if (!drawnL) {
+      page?.bindLength(prune === undefined ? null : L, prune === undefined ? undefined : Number(plain(prune)));
+    }
+    $('L').title =
+      prune === undefined
+        ? ''
+        : 'network.prune' +
+          (isStandard(key('network.prune') ?? { type: '', standard: '' }, prune) ? ', the default' : '');
   }
 
   // ── Export.
   const outcome = make('div', { className: 'outcome' });
   outcome.setAttribute('role', 'status');
   const whole = button('Export everything', 'Write all files of make into the export folder', () => exported());
-  const choice = make('select', { id: 'one-file' }, ...files.map((value) => make('option', { value, textContent: value })));
+  const choice = make(
+    'select',
+    { id: 'one-file' },
+    ...files.map((value) => make('option', { value, textContent: value })),
+  );
   const one = button('Save', 'Save this file', () => exported(choice.value));
   const command = make('div');
-  const exporting = dialog('Export', make('p', { textContent: 'All files that make writes, in a folder beside the recipe:' }), whole,
-    make('p', { className: 'one' }, make('label', { htmlFor: 'one-file', textContent: 'One file' }), choice, one), outcome,
-    make('p', { className: 'hint', textContent: 'The same by the command line:' }), command);
+  const exporting = dialog(
+    'Export',
+    make('p', { textContent: 'All files that make writes, in a folder beside the recipe:' }),
+    whole,
+    make('p', { className: 'one' }, make('label', { htmlFor: 'one-file', textContent: 'One file' }), choice, one),
+    outcome,
+    make('p', { className: 'hint', textContent: 'The same by the command line:' }),
+    command,
+  );
   exporting.id = 'export';
   async function exported(file) {
     whole.disabled = one.disabled = true;
@@ -251,12 +350,23 @@ export function openStudio(about, state) {
       const reply = await state.export(file);
       if (file && reply.url) {
         const url = new URL(reply.url, location.href);
-        for (const [name, value] of new URLSearchParams(location.search)) if (!url.searchParams.has(name)) url.searchParams.append(name, value);
+        for (const [name, value] of new URLSearchParams(location.search)) {
+          if (!url.searchParams.has(name)) url.searchParams.append(name, value);
+        }
         make('a', { href: url.href, download: file }).click();
       }
       const many = reply.files?.length ?? 0;
-      outcome.replaceChildren(make('p', { className: 'done', textContent: file ? `${file} is saved.` : `${many} files in` }),
-        !file && copyable(reply.folder ?? '', 'the folder'), many > 1 && make('details', {}, make('summary', { textContent: 'Which' }), make('p', { className: 'hint', textContent: reply.files.join(', ') })));
+      outcome.replaceChildren(
+        make('p', { className: 'done', textContent: file ? `${file} is saved.` : `${many} files in` }),
+        !file && copyable(reply.folder ?? '', 'the folder'),
+        many > 1 &&
+          make(
+            'details',
+            {},
+            make('summary', { textContent: 'Which' }),
+            make('p', { className: 'hint', textContent: reply.files.join(', ') }),
+          ),
+      );
       outcome.replaceChildren(...[...outcome.childNodes].filter((n) => n.nodeType === 1));
     } catch (error) {
       outcome.replaceChildren(make('p', { className: 'refused', textContent: error.message }));
@@ -277,26 +387,43 @@ export function openStudio(about, state) {
       sheet?.follow();
       return;
     }
-    page = createPage(scene, state, drawingKeys.concat([['Ctrl+Z', 'undo'], ['Ctrl+Shift+Z, Ctrl+Y', 'redo'], ['B', 'hold: before the last edit']]));
+    page = createPage(
+      scene,
+      state,
+      drawingKeys.concat([['Ctrl+Z', 'undo'], ['Ctrl+Shift+Z, Ctrl+Y', 'redo'], ['B', 'hold: before the last edit']]),
+    );
     state.heights = () => link.heights;
     view.hidden = false;
     above();
     draw();
   }
-  const dataOf = (grid, more) => ({ ...noData, version: about.version, title: document.title, seed: Number(current.values.seed) || 0, grid, heights: null, ...more });
+  const dataOf = (grid, more) => ({
+    ...noData,
+    version: about.version,
+    title: document.title,
+    seed: Number(current.values.seed) || 0,
+    grid,
+    heights: null,
+    ...more,
+  });
 
   // ── Drawing.
   let sheet = null;
   let drawn = null; // the program's last message of it
   function draw() {
     if (!page || !drawn) return;
-    sheet ??= openSheet(page, { ask, revision: () => state.revision, types: (key('network.rosgen')?.choices ?? []).filter((type) => !type.startsWith('by_')) });
+    sheet ??= openSheet(page, {
+      ask,
+      revision: () => state.revision,
+      types: (key('network.rosgen')?.choices ?? []).filter((type) => !type.startsWith('by_')),
+    });
     sheet.take(drawn);
   }
 
   function drawing(message) {
     // Rivers that were shown on level ground, or were about to be, go too; another grid is another sheet.
-    const emptied = page && !(now?.land.level && now.rivers.count === 0 && !pending && sameGrid(now.data.grid, message.grid));
+    const emptied =
+      page && !(now?.land.level && now.rivers.count === 0 && !pending && sameGrid(now.data.grid, message.grid));
     drawn = message;
     // Where rivers are shown and none is there, a given land comes.
     if (message.kind === 'drawn' && message.rivers.length === 0) {
@@ -315,7 +442,12 @@ export function openStudio(about, state) {
     clearTimeout(alone);
     const land = new Land(grid, null);
     state.level = null;
-    show({ data: dataOf(grid, { command: current.command, recipe: current.recipe }), land, rivers: new Rivers(noData.rivers, null, ''), water: new Water(land, '', false) });
+    show({
+      data: dataOf(grid, { command: current.command, recipe: current.recipe }),
+      land,
+      rivers: new Rivers(noData.rivers, null, ''),
+      water: new Water(land, '', false),
+    });
     stale(false);
   }
 
@@ -331,8 +463,12 @@ export function openStudio(about, state) {
   function riversAlone(next) {
     const { data } = next;
     if (now && !sameGrid(now.data.grid, data.grid)) return; // they wait for their land
-    if (now) show({ ...now, rivers: next.rivers, data: { ...now.data, rivers: data.rivers, ridges: data.ridges } }, { report: false });
-    else {
+    if (now) {
+      show(
+        { ...now, rivers: next.rivers, data: { ...now.data, rivers: data.rivers, ridges: data.ridges } },
+        { report: false },
+      );
+    } else {
       const land = new Land(data.grid, null);
       show({ data: dataOf(data.grid, data), land, rivers: next.rivers, water: new Water(land, '', false) });
     }
@@ -344,13 +480,23 @@ export function openStudio(about, state) {
     const { grid, width, height, cells, min, max, nodata, sea, level } = header;
     const about_ = { width, height, cells, min, max, nodata };
     const land = new Land(grid, about_, values, sea);
-    const of = [pending, now].find((one) => one && sameGrid(one.data.grid, grid));
+    const of = [pending, now].find((made_) => made_ && sameGrid(made_.data.grid, grid));
     if (level === 'coarse' && now && !now.land.level && sameGrid(now.data.grid, grid)) {
       land.draft = true;
       land.steepest = now.land.steepness();
     }
-    const data = { ...dataOf(grid, of?.data), heights: about_, sea, lakes: false, summits: [], contour_m: of?.data.contour_m || Number(((max - min) / 40).toPrecision(1)) || 1 };
-    show({ data, land, rivers: of?.rivers ?? new Rivers(noData.rivers, null, ''), water: new Water(land, '', false) }, { report: false });
+    const data = {
+      ...dataOf(grid, of?.data),
+      heights: about_,
+      sea,
+      lakes: false,
+      summits: [],
+      contour_m: of?.data.contour_m || Number(((max - min) / 40).toPrecision(1)) || 1,
+    };
+    show(
+      { data, land, rivers: of?.rivers ?? new Rivers(noData.rivers, null, ''), water: new Water(land, '', false) },
+      { report: false },
+    );
     state.level = level;
     stale(true);
     if (sent && header.job >= sent.job) seen(sent, level);
@@ -372,8 +518,13 @@ export function openStudio(about, state) {
       return;
     }
     pending = null;
-    const land = !data.heights ? (now?.land.level && sameGrid(now.data.grid, data.grid) ? now.land : new Land(data.grid, null))
-      : now && state.level === 'full' && !now.land.level && sameGrid(now.data.grid, data.grid) ? now.land : new Land(data.grid, data.heights, link.heights, data.sea);
+    const land = !data.heights
+      ? now?.land.level && sameGrid(now.data.grid, data.grid)
+        ? now.land
+        : new Land(data.grid, null)
+      : now && state.level === 'full' && !now.land.level && sameGrid(now.data.grid, data.grid)
+        ? now.land
+        : new Land(data.grid, data.heights, link.heights, data.sea);
     const same = made && made.job === job && made.lines === lines && made.land === land && made.text === text;
     const net = same ? made.rivers : new Rivers(data.rivers, data.ridges, lines);
     const water = same ? made.water : new Water(land, text, data.lakes);
@@ -392,8 +543,18 @@ export function openStudio(about, state) {
     if (on) page.bindLength({ least: L.least, changing() {}, changed() {} }, before.data.rivers.prune);
     else above();
   }
-  for (const [kind, on] of [['pointerdown', true], ['pointerup', false], ['pointerleave', false], ['pointercancel', false], ['blur', false]]) compare.addEventListener(kind, () => hold(on));
-  for (const [kind, on] of [['keydown', true], ['keyup', false]]) compare.addEventListener(kind, (event) => [' ', 'Enter'].includes(event.key) && hold(on));
+  for (const [kind, on] of [
+    ['pointerdown', true],
+    ['pointerup', false],
+    ['pointerleave', false],
+    ['pointercancel', false],
+    ['blur', false],
+  ]) {
+    compare.addEventListener(kind, () => hold(on));
+  }
+  for (const [kind, on] of [['keydown', true], ['keyup', false]]) {
+    compare.addEventListener(kind, (event) => [' ', 'Enter'].includes(event.key) && hold(on));
+  }
   window.addEventListener('keyup', (event) => event.key.toLowerCase() === 'b' && hold(false));
   window.addEventListener('blur', () => hold(false));
   window.addEventListener('keydown', (event) => {
@@ -404,7 +565,11 @@ export function openStudio(about, state) {
       if (!again && sheet?.back()) event.preventDefault();
       else if (!(again ? redo : undo).disabled) (again ? redo : undo).click();
       event.preventDefault();
-    } else if (letter === 'b' && !event.ctrlKey && !event.metaKey && !event.altKey && event.target.tagName !== 'SELECT') hold(true);
+    } else if (
+      letter === 'b' && !event.ctrlKey && !event.metaKey && !event.altKey && event.target.tagName !== 'SELECT'
+    ) {
+      hold(true);
+    }
   });
 
   const ends = ({ job }) => {
@@ -425,10 +590,15 @@ export function openStudio(about, state) {
       awaited = finished = 0;
       bar.classList.remove('on');
       tell('');
-      tellAll(attempts > 3 ? 'thalweg studio has ended; start it again and reload' : 'The connection to thalweg studio was lost; trying again…');
+      tellAll(
+        attempts > 3
+          ? 'thalweg studio has ended; start it again and reload'
+          : 'The connection to thalweg studio was lost; trying again…',
+      );
     },
     document(message) {
-      if (state.revision !== undefined && message.revision > state.revision && unanswered === 0) begins(); // in another window
+      // in another window
+      if (state.revision !== undefined && message.revision > state.revision && unanswered === 0) begins();
       current = message;
       state.revision = message.revision;
       form.show(message);
@@ -439,14 +609,22 @@ export function openStudio(about, state) {
     busy({ job, stage, share }) {
       working = true;
       // A stage of several passes does not run backwards.
-      done = done.job === job && done.stage === stage ? { ...done, share: Math.max(done.share, share) } : { job, stage, share };
+      done =
+        done.job === job && done.stage === stage
+          ? { ...done, share: Math.max(done.share, share) }
+          : { job, stage, share };
       bar.classList.add('on');
       bar.firstElementChild.style.width = `${(100 * done.share).toFixed(1)}%`;
-      tell(`${stage.replace(/_/g, ' ')}${done.share > 0 && done.share < 1 ? ` ${Math.round(100 * done.share)}\u00a0%` : ''}`, { running: true });
+      tell(
+        stage.replace(/_/g, ' ') +
+          (done.share > 0 && done.share < 1 ? ` ${Math.round(100 * done.share)}\u00a0%` : ''),
+        { running: true },
+      );
     },
     idle(message) {
       ends(message);
-      tell(state.busy || !page ? '' : message.stopped ? 'stopped' : `done in ${seconds(message.seconds)}`); // one that a later job ended is not done
+      // one that a later job ended is not done
+      tell(state.busy || !page ? '' : message.stopped ? 'stopped' : `done in ${seconds(message.seconds)}`);
     },
     failed(message) {
       ends(message);
@@ -462,7 +640,10 @@ export function openStudio(about, state) {
   });
   Object.assign(state, {
     level: null,
-    /** {set, value} | {unset} | {recipe} | {name, steps}: a promise of the reply, which rejects with the program's words. */
+    /**
+     * {set, value} | {unset} | {recipe} | {name, steps}: a promise of the reply, which rejects with the program's
+     * words.
+     */
     run: (one_) => ask({ do: 'edit', edit: stepsOf(one_) }),
     undo: () => ask({ do: 'undo' }),
     redo: () => ask({ do: 'redo' }),

@@ -65,7 +65,16 @@ export function along(land, line) {
 
 /** Of heights along a line: length in plan and over the ground, what is climbed and lost, greatest slope [°]. */
 export function sums(points) {
-  const out = { length: points.at(-1).d - points[0].d, ground: 0, up: 0, down: 0, steepest: 0, low: Infinity, high: -Infinity, gaps: false };
+  const out = {
+    length: points.at(-1).d - points[0].d,
+    ground: 0,
+    up: 0,
+    down: 0,
+    steepest: 0,
+    low: Infinity,
+    high: -Infinity,
+    gaps: false,
+  };
   points.forEach(({ d, z }, i) => {
     if (Number.isNaN(z)) out.gaps = true;
     else Object.assign(out, { low: Math.min(out.low, z), high: Math.max(out.high, z) });
@@ -80,7 +89,10 @@ export function sums(points) {
   return { ...out, steepest: degrees(out.steepest) };
 }
 
-/** Rivers that a line crosses, from its beginning: [{d, x, y, arc, order, area [m2]}]. orders: as rivers.kept() gives them. */
+/**
+ * Rivers that a line crosses, from its beginning: [{d, x, y, arc, order, area [m2]}]. orders: as rivers.kept() gives
+ * them.
+ */
 export function crossings(land, line, { rivers, orders, finder }) {
   const found = [];
   const seen = new Set();
@@ -102,7 +114,14 @@ export function crossings(land, line, { rivers, orders, finder }) {
       const key = `${leg} ${arc} ${i}`;
       if (seen.has(key)) continue;
       seen.add(key);
-      found.push({ d: (behind + t * long) * side(land), x: ax + t * (bx - ax), y: ay + t * (by - ay), arc, order: orders[arc], area: areaAt(rivers, arc, i, s) });
+      found.push({
+        d: (behind + t * long) * side(land),
+        x: ax + t * (bx - ax),
+        y: ay + t * (by - ay),
+        arc,
+        order: orders[arc],
+        area: areaAt(rivers, arc, i, s),
+      });
     }
     behind += long;
   }
@@ -130,9 +149,13 @@ function inflows(rivers, orders, arc) {
   return all;
 }
 
-/** The river of an arc, from its farthest source by drained area to its outlet: {line, arcs, joins: [{x, y, arc, order, area}]}. */
+/**
+ * The river of an arc, from its farthest source by drained area to its outlet: {line, arcs, joins: [{x, y, arc, order,
+ * area}]}.
+ */
 export function riverOf({ rivers, orders }, arc) {
-  const largest = (list) => list.reduce((best, k) => (best < 0 || rivers.arcs.ds_area[k] > rivers.arcs.ds_area[best] ? k : best), -1);
+  const largest = (list) =>
+    list.reduce((best, k) => (best < 0 || rivers.arcs.ds_area[k] > rivers.arcs.ds_area[best] ? k : best), -1);
   let head = arc;
   for (let above = arc; above >= 0; above = largest(inflows(rivers, orders, above))) head = above;
   const arcs = rivers.path(head);
@@ -141,11 +164,15 @@ export function riverOf({ rivers, orders }, arc) {
   for (const k of arcs) {
     const part = rivers.lines[k];
     for (let i = 0; i < part.length; i += 2) {
-      if (line.length === 0 || part[i] !== line.at(-1)[0] || part[i + 1] !== line.at(-1)[1]) line.push([part[i], part[i + 1]]);
+      if (line.length === 0 || part[i] !== line.at(-1)[0] || part[i + 1] !== line.at(-1)[1]) {
+        line.push([part[i], part[i + 1]]);
+      }
     }
     const { 0: x, 1: y } = part;
     for (const other of inflows(rivers, orders, k)) {
-      if (!arcs.includes(other)) joins.push({ x, y, arc: other, order: orders[other], area: rivers.arcs.ds_area[other] });
+      if (!arcs.includes(other)) {
+        joins.push({ x, y, arc: other, order: orders[other], area: rivers.arcs.ds_area[other] });
+      }
     }
   }
   return { line, arcs, joins };
@@ -162,8 +189,8 @@ export function nearestOn(line, x, y) {
 }
 
 /**
- * Heights along a river from its outlet up: [{d from the outlet, x, y, z}]. The height of a place is the lowest beside it, and
- * none is above those upstream.
+ * Heights along a river from its outlet up: [{d from the outlet, x, y, z}]. The height of a place is the lowest beside
+ * it, and none is above those upstream.
  */
 export function riverProfile(land, line) {
   const places = spread(land, line, land.cells / 2);
@@ -177,7 +204,9 @@ export function riverProfile(land, line) {
   return points.reverse();
 }
 
-/** Direction downstream of a line about a place, by the chord of `reach` [cells] up and down along it: {x, y, dx, dy}. */
+/**
+ * Direction downstream of a line about a place, by the chord of `reach` [cells] up and down along it: {x, y, dx, dy}.
+ */
 export function courseAt(line, x, y, reach) {
   const here = nearestOn(line, x, y);
   const walk = (from, step) => {
@@ -197,7 +226,9 @@ export function courseAt(line, x, y, reach) {
   return { x: here.x, y: here.y, dx: (down[0] - up[0]) / long, dy: (down[1] - up[1]) / long };
 }
 
-/** Direction in which the land about a place falls most steeply, over `reach` [cells]; to the south where it is level. */
+/**
+ * Direction in which the land about a place falls most steeply, over `reach` [cells]; to the south where it is level.
+ */
 export function fallAt(land, x, y, reach) {
   const z = (u, v) => land.heightAt(u, v);
   const dx = z(x - reach, y) - z(x + reach, y);
@@ -213,8 +244,9 @@ export function room({ grid }, x, y, ux, uy) {
 }
 
 /**
- * How far from a place the divide on one side is seen [cells]: the highest ground before it falls by a quarter of what it rose
- * and by a 50th of the land's range, but not before `look`; a sixth more, no farther than 0.3 of the grid's longer side.
+ * How far from a place the divide on one side is seen [cells]: the highest ground before it falls by a quarter of what
+ * it rose and by a 50th of the land's range, but not before `look`; a sixth more, no farther than 0.3 of the grid's
+ * longer side.
  */
 function reachTo(land, { x, y, ux, uy }, sign, look) {
   const { width, height } = land.grid;
@@ -229,7 +261,9 @@ function reachTo(land, { x, y, ux, uy }, sign, look) {
     const z = heightOf(land, x + sign * d * ux, y + sign * d * uy);
     if (Number.isNaN(z)) break;
     if (z > top) [top, topAt] = [z, d];
-    else if (d > look && top - z > Math.max((top - floor) / 4, least)) return Math.min(end, Math.max(topAt + 4 * step, (7 / 6) * topAt));
+    else if (d > look && top - z > Math.max((top - floor) / 4, least)) {
+      return Math.min(end, Math.max(topAt + 4 * step, (7 / 6) * topAt));
+    }
   }
   return Math.max(step, Math.min(d - step, end));
 }
@@ -280,8 +314,9 @@ function areaBelow(points, level, from, to) {
 }
 
 /**
- * Of a section: floor (the lowest ground within three values of the middle), crests of both sides {d, z, rise, slope: mean from
- * the floor [°]}, depth below the lower crest, widths [{share of the depth, height, width}] and area [m2] at that depth.
+ * Of a section: floor (the lowest ground within three values of the middle), crests of both sides {d, z, rise, slope:
+ * mean from the floor [°]}, depth below the lower crest, widths [{share of the depth, height, width}] and area [m2] at
+ * that depth.
  */
 export function valley(land, points) {
   const near = 3 * land.cells * side(land);
@@ -293,7 +328,14 @@ export function valley(land, points) {
     let top = floor;
     for (let i = at; points[i] && !Number.isNaN(points[i].z); i += step) if (points[i].z > top.z) top = points[i];
     const rise = top.z - floor.z;
-    return { d: top.d, x: top.x, y: top.y, z: top.z, rise, slope: rise > 0 ? degrees(rise / Math.abs(top.d - floor.d)) : 0 };
+    return {
+      d: top.d,
+      x: top.x,
+      y: top.y,
+      z: top.z,
+      rise,
+      slope: rise > 0 ? degrees(rise / Math.abs(top.d - floor.d)) : 0,
+    };
   };
   const [left, right] = [crest(-1), crest(1)];
   const depth = Math.min(left.rise, right.rise);
@@ -306,9 +348,15 @@ export function valley(land, points) {
   return { floor, left, right, depth, widths, area: depth > 0 ? areaBelow(points, level(1), ...ends(1)) : 0 };
 }
 
-/** The value of a river near a place on it: of the nine about it the one that drains most nearly what the river does there. */
+/**
+ * The value of a river near a place on it: of the nine about it the one that drains most nearly what the river does
+ * there.
+ */
 export function valueOfRiver(land, water, rivers, arc, x, y) {
-  const line = Array.from({ length: rivers.lines[arc].length / 2 }, (_, i) => [rivers.lines[arc][2 * i], rivers.lines[arc][2 * i + 1]]);
+  const line = Array.from({ length: rivers.lines[arc].length / 2 }, (_, i) => [
+    rivers.lines[arc][2 * i],
+    rivers.lines[arc][2 * i + 1],
+  ]);
   const here = nearestOn(line, x, y);
   const [[ax, ay], [bx, by]] = [line[here.part - 1], line[here.part]];
   const share = Math.hypot(here.x - ax, here.y - ay) / (Math.hypot(bx - ax, by - ay) || 1);
@@ -346,15 +394,26 @@ export function catchment(land, water, value, { east, south }) {
     out.longest = Math.max(out.longest, distances[i] - distances[value]);
   }
   const cell = land.cells * side(land);
-  return { ...out, area: out.count * cell * cell, share: out.count / known, mean: out.mean / out.count, slope: out.slope / out.count, longest: out.longest * cell };
+  return {
+    ...out,
+    area: out.count * cell * cell,
+    share: out.count / known,
+    mean: out.mean / out.count,
+    slope: out.slope / out.count,
+    longest: out.longest * cell,
+  };
 }
 
-/** The network in a catchment: {arcs, sources, order: highest}, by an arc and those above it, else by where arcs lie. */
+/**
+ * The network in a catchment: {arcs, sources, order: highest}, by an arc and those above it, else by where arcs lie.
+ */
 export function networkOf({ land, rivers, orders }, { inside }, arc) {
   const within = new Uint8Array(rivers.count);
   if (arc >= 0) {
     within[arc] = 1;
-    for (const k of [...rivers.upstreamFirst].reverse()) if (rivers.downstream[k] >= 0 && within[rivers.downstream[k]]) within[k] = 1;
+    for (const k of [...rivers.upstreamFirst].reverse()) {
+      if (rivers.downstream[k] >= 0 && within[rivers.downstream[k]]) within[k] = 1;
+    }
   } else {
     rivers.lines.forEach((line, k) => {
       const i = 2 * Math.floor(line.length / 4);
@@ -364,19 +423,24 @@ export function networkOf({ land, rivers, orders }, { inside }, arc) {
   }
   const kept = [...within.keys()].filter((k) => within[k] && orders[k] > 0);
   const fed = new Set(rivers.downstream.filter((_, k) => orders[k] > 0));
-  return { arcs: kept.length, sources: kept.filter((k) => !fed.has(k)).length, order: kept.reduce((most_, k) => Math.max(most_, orders[k]), 0) };
+  return {
+    arcs: kept.length,
+    sources: kept.filter((k) => !fed.has(k)).length,
+    order: kept.reduce((most_, k) => Math.max(most_, orders[k]), 0),
+  };
 }
 
 const headings = [[1, 0], [0, 1], [-1, 0], [0, -1]]; // east, south, west, north
 
 /**
- * Outlines of the values that are set, along their edges: [{outer: [[x, y], …], holes: [likewise]}] in cells, rings closed.
- * Values that only touch by corners are polygons of their own, as OGC's simple features want it.
+ * Outlines of the values that are set, along their edges: [{outer: [[x, y], …], holes: [likewise]}] in cells, rings
+ * closed. Values that only touch by corners are polygons of their own, as OGC's simple features want it.
  */
 export function outline({ width, height, cells }, inside) {
   const set = (c, r) => c >= 0 && r >= 0 && c < width && r < height && inside[r * width + c] > 0;
   // An edge has what is set at its right hand.
-  const edge = ([x, y], h) => [[x, y, x, y - 1], [x - 1, y, x, y], [x - 1, y - 1, x - 1, y], [x, y - 1, x - 1, y - 1]][h];
+  const edge = ([x, y], h) =>
+    [[x, y, x, y - 1], [x - 1, y, x, y], [x - 1, y - 1, x - 1, y], [x, y - 1, x - 1, y - 1]][h];
   const runs = (at, h) => {
     const [c, r, oc, or] = edge(at, h);
     return set(c, r) && !set(oc, or);
@@ -433,10 +497,14 @@ function encloses(ring, [x, y]) {
 /** Polygons in the grid's coordinates as WKT. */
 export function wkt(polygons, { west, north, cell_m: cell }) {
   const ring = (points) => `(${points.map(([x, y]) => `${west + x * cell} ${north - y * cell}`).join(', ')})`;
-  return `MULTIPOLYGON (${polygons.map(({ outer, holes }) => `(${[outer, ...holes].map(ring).join(', ')})`).join(', ')})`;
+  const polygon = ({ outer, holes }) => `(${[outer, ...holes].map(ring).join(', ')})`;
+  return `MULTIPOLYGON (${polygons.map(polygon).join(', ')})`;
 }
 
-/** From point to point: legs {length, ground, rise, bearing [° from grid north], slope [°]}, their sums, and area [m2] if closed. */
+/**
+ * From point to point: legs {length, ground, rise, bearing [° from grid north], slope [°]}, their sums, and area [m2]
+ * if closed.
+ */
 export function traverse(land, points, closed) {
   const corners = closed ? [...points, points[0]] : points;
   const legs = corners.slice(1).map(([x, y], i) => {
@@ -444,9 +512,21 @@ export function traverse(land, points, closed) {
     const samples = along(land, [[px, py], [x, y]]);
     const { length, ground } = sums(samples);
     const rise = samples.at(-1).z - samples[0].z;
-    return { length, ground, rise, bearing: ((Math.atan2(x - px, py - y) * 180) / Math.PI + 360) % 360, slope: length > 0 ? degrees(rise / length) : NaN };
+    return {
+      length,
+      ground,
+      rise,
+      bearing: ((Math.atan2(x - px, py - y) * 180) / Math.PI + 360) % 360,
+      slope: length > 0 ? degrees(rise / length) : NaN,
+    };
   });
   const sum = (key) => legs.reduce((total, leg) => total + leg[key], 0);
   const doubled = corners.slice(1).reduce((total, [x, y], i) => total + corners[i][0] * y - corners[i][1] * x, 0);
-  return { legs, length: sum('length'), ground: sum('ground'), rise: sum('rise'), area: closed ? (Math.abs(doubled) / 2) * side(land) ** 2 : null };
+  return {
+    legs,
+    length: sum('length'),
+    ground: sum('ground'),
+    rise: sum('rise'),
+    area: closed ? (Math.abs(doubled) / 2) * side(land) ** 2 : null,
+  };
 }

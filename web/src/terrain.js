@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page of `thalweg export --for web`: MapLibre shows the tiles beside it, or those inside it where it is opened from disk.
+// The page of `thalweg export --for web`: MapLibre shows the tiles beside it, or those inside it where it is opened
+// from disk.
 import { addProtocol, AttributionControl, Map, NavigationControl, ScaleControl, setWorkerUrl } from 'maplibre-gl';
 import worker from 'maplibre-worker';
 import 'maplibre-gl/dist/maplibre-gl.css';
@@ -38,20 +39,40 @@ function styleOf(rivers) {
   return {
     version: 8,
     sources: {
-      heights: { type: 'raster-dem', tiles: [`${address}heights/{z}/{x}/{y}${ending}`], encoding: 'mapbox', tileSize: 256, ...limits },
+      heights: {
+        type: 'raster-dem',
+        tiles: [`${address}heights/{z}/{x}/{y}${ending}`],
+        encoding: 'mapbox',
+        tileSize: 256,
+        ...limits,
+      },
       colour: { type: 'raster', tiles: [`${address}colour/{z}/{x}/{y}${ending}`], tileSize: 256, ...limits },
       ...(rivers && { rivers: { type: 'geojson', data: rivers, tolerance: 0.1 } }),
     },
     layers: [
       { id: 'colour', type: 'raster', source: 'colour', paint: { 'raster-fade-duration': 0 } },
-      ...(rivers ? [{
-        id: 'rivers', type: 'line', source: 'rivers', layout: { 'line-cap': 'round', 'line-join': 'round' },
-        paint: {
-          'line-color': ['interpolate', ['linear'], ['get', 'width'], 1.2, '#4a8fd0', 5.4, '#124f9e'],
-          'line-width': ['interpolate', ['exponential', 1.4], ['zoom'],
-            data.min_zoom + 2, ['*', 0.6, ['get', 'width']], Math.max(data.min_zoom + 3, data.max_zoom + 1), ['*', 1.6, ['get', 'width']]],
-        },
-      }] : []),
+      ...(rivers
+        ? [
+            {
+              id: 'rivers',
+              type: 'line',
+              source: 'rivers',
+              layout: { 'line-cap': 'round', 'line-join': 'round' },
+              paint: {
+                'line-color': ['interpolate', ['linear'], ['get', 'width'], 1.2, '#4a8fd0', 5.4, '#124f9e'],
+                'line-width': [
+                  'interpolate',
+                  ['exponential', 1.4],
+                  ['zoom'],
+                  data.min_zoom + 2,
+                  ['*', 0.6, ['get', 'width']],
+                  Math.max(data.min_zoom + 3, data.max_zoom + 1),
+                  ['*', 1.6, ['get', 'width']],
+                ],
+              },
+            },
+          ]
+        : []),
     ],
     terrain: { source: 'heights', exaggeration: data.exaggeration },
   };
@@ -103,13 +124,27 @@ async function show() {
   document.title = data.title || 'Terrain';
   at('title').textContent = document.title;
   at('facts').textContent = `${metres(data.min_m)} to ${metres(data.max_m)}`;
-  setWorkerUrl(`${URL.createObjectURL(new Blob([worker], { type: 'text/javascript' }))}#.cjs`); // not a module: also from disk
+  // not a module: also from disk
+  setWorkerUrl(`${URL.createObjectURL(new Blob([worker], { type: 'text/javascript' }))}#.cjs`);
   const map = new Map({
-    container: 'map', style: styleOf(await riversOf()), attributionControl: false, maxPitch: 80, pitch: tilt, bearing: data.bearing,
-    center: [0.5 * (west + east), 0.5 * (south + north)], zoom: data.min_zoom, minZoom: data.min_zoom + 1,
-    maxZoom: Math.min(24, data.max_zoom + 3), renderWorldCopies: false, terrainSkirtLength: 'none',
-    transformCameraUpdate: ({ center }) => ({ // the terrain stays in sight
-      center: new center.constructor(Math.min(Math.max(center.lng, west), east), Math.min(Math.max(center.lat, south), north)),
+    container: 'map',
+    style: styleOf(await riversOf()),
+    attributionControl: false,
+    maxPitch: 80,
+    pitch: tilt,
+    bearing: data.bearing,
+    center: [0.5 * (west + east), 0.5 * (south + north)],
+    zoom: data.min_zoom,
+    minZoom: data.min_zoom + 1,
+    maxZoom: Math.min(24, data.max_zoom + 3),
+    renderWorldCopies: false,
+    terrainSkirtLength: 'none',
+    transformCameraUpdate: ({ center }) => ({
+      // the terrain stays in sight
+      center: new center.constructor(
+        Math.min(Math.max(center.lng, west), east),
+        Math.min(Math.max(center.lat, south), north),
+      ),
     }),
   });
   state.map = map;
@@ -125,9 +160,11 @@ async function show() {
 
 function fail(error) {
   state.error = String(error?.message ?? error);
-  at('message').textContent = location.protocol === 'file:' && !data.tiles
-    ? 'A browser does not let this page read its tiles from disk. Open terrain.html, or serve this folder: python3 -m http.server'
-    : `The terrain cannot be shown: ${state.error}`;
+  at('message').textContent =
+    location.protocol === 'file:' && !data.tiles
+      ? 'A browser does not let this page read its tiles from disk. Open terrain.html, or serve this folder: ' +
+        'python3 -m http.server'
+      : `The terrain cannot be shown: ${state.error}`;
   at('message').hidden = false;
 }
 

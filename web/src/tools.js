@@ -6,8 +6,8 @@ import { draw, make } from './elements.js';
 import { typing } from './keys.js';
 
 /**
- * A tool: {id, title, icon: path on 20 x 20, letter: the key that takes it, group: number, the buttons of a group stand together},
- * and of the following what it needs; `at` is a place {x, y} in cells, or null beside the land
+ * A tool: {id, title, icon: path on 20 x 20, letter: the key that takes it, group: number, the buttons of a group stand
+ * together}, and of the following what it needs; `at` is a place {x, y} in cells, or null beside the land
  *   cursor: 'crosshair'
  *   down(at, event), move(at, event), up(at, event): one gesture; cancel(): it ended otherwise, or the tool is put away
  *   hover(at, event): the pointer without a button
@@ -41,12 +41,16 @@ export class Tools {
       drawn?.(turn);
       this.draw();
     };
-    for (const kind of ['pointerdown', 'pointermove', 'pointerup', 'pointercancel']) parent.addEventListener(kind, (event) => this.#follow(event), { capture: true });
+    for (const kind of ['pointerdown', 'pointermove', 'pointerup', 'pointercancel']) {
+      parent.addEventListener(kind, (event) => this.#follow(event), { capture: true });
+    }
     parent.addEventListener('contextmenu', (event) => this.held && event.preventDefault());
     window.addEventListener('keydown', (event) => {
       if (event.code === 'Space' && event.target === view.canvas) this.#space = true;
       if (typing(event) || event.target.closest?.('dialog') || event.ctrlKey || event.metaKey || event.altKey) return;
-      const tool = Array.from(this.#tools.values()).find(({ letter, button }) => letter === event.key.toLowerCase() && !button.disabled && !button.hidden);
+      const tool = Array.from(this.#tools.values()).find(
+        ({ letter, button }) => letter === event.key.toLowerCase() && !button.disabled && !button.hidden,
+      );
       if (this.held?.key?.(event)) {
         event.preventDefault();
         event.stopPropagation();
@@ -63,15 +67,20 @@ export class Tools {
   /** Puts a tool into the bar. Gives its button, as tool.button has it. */
   add(tool) {
     const { id, title, icon, letter, group = 0 } = tool;
-    const button = make('button', { type: 'button', id: `tool-${id}`, title: `${title}${letter ? ` (${letter.toUpperCase()})` : ''}` },
-      draw('svg', { viewBox: '0 0 20 20', 'aria-hidden': 'true' }, draw('path', { d: icon })));
+    const button = make(
+      'button',
+      { type: 'button', id: `tool-${id}`, title: `${title}${letter ? ` (${letter.toUpperCase()})` : ''}` },
+      draw('svg', { viewBox: '0 0 20 20', 'aria-hidden': 'true' }, draw('path', { d: icon })),
+    );
     button.setAttribute('aria-label', title);
     button.setAttribute('aria-pressed', 'false');
     button.addEventListener('click', () => this.hold(this.held === tool ? null : id));
     button.dataset.group = group;
     const after = Array.from(this.bar.children).find((other) => Number(other.dataset.group) > group);
     this.bar.insertBefore(button, after ?? null);
-    for (const [i, one] of Array.from(this.bar.children).entries()) one.classList.toggle('begins', i > 0 && one.dataset.group !== this.bar.children[i - 1].dataset.group);
+    for (const [i, one] of Array.from(this.bar.children).entries()) {
+      one.classList.toggle('begins', i > 0 && one.dataset.group !== this.bar.children[i - 1].dataset.group);
+    }
     this.bar.hidden = false;
     this.#tools.set(id, tool);
     tool.button = button;
@@ -79,8 +88,8 @@ export class Tools {
   }
 
   /** What is drawn whatever tool is held. */
-  layer(draw) {
-    this.#layers.push(draw);
+  layer(paint) {
+    this.#layers.push(paint);
   }
 
   /** Takes a tool by its id; null: none. */
@@ -111,7 +120,19 @@ export class Tools {
     const { clientX, clientY, pointerId, pointerType, isPrimary } = this.#begun;
     this.#end();
     this.#passes = true;
-    this.view.canvas.dispatchEvent(new PointerEvent('pointerdown', { clientX, clientY, pointerId, pointerType, isPrimary, button: 0, buttons: 1, bubbles: true, cancelable: true }));
+    this.view.canvas.dispatchEvent(
+      new PointerEvent('pointerdown', {
+        clientX,
+        clientY,
+        pointerId,
+        pointerType,
+        isPrimary,
+        button: 0,
+        buttons: 1,
+        bubbles: true,
+        cancelable: true,
+      }),
+    );
     this.#passes = false;
   }
 
@@ -129,7 +150,10 @@ export class Tools {
     const mine = event.pointerId === this.#gesture;
     if (event.type === 'pointerdown') {
       // A hand that rests beside a pen or a mouse changes nothing.
-      const other = this.#gesture !== null && event.pointerId !== this.#gesture && (this.#begun.pointerType !== 'touch' || event.pointerType !== 'touch');
+      const other =
+        this.#gesture !== null &&
+        event.pointerId !== this.#gesture &&
+        (this.#begun.pointerType !== 'touch' || event.pointerType !== 'touch');
       if (other) {
         event.stopPropagation();
         return;
@@ -137,14 +161,17 @@ export class Tools {
       if (this.#fingers.size > 1) this.#handOver();
       if (this.#fingers.size > 1 || event.button !== 0 || this.#space) return;
       const at = this.#at(event);
-      this.view.canvas.focus({ preventScroll: true }); // first: what is typed beside the view belongs to what is chosen now
+      // first: what is typed beside the view belongs to what is chosen now
+      this.view.canvas.focus({ preventScroll: true });
       if (tool.down?.(at, event) === false) return; // it leaves the gesture to the view
       this.#gesture = event.pointerId;
       this.#begun = event;
       this.view.canvas.setPointerCapture(event.pointerId);
     } else if (event.type === 'pointermove') {
-      if (mine) for (const one of event.getCoalescedEvents?.().length ? event.getCoalescedEvents() : [event]) tool.move?.(this.#at(one), one);
-      else if (event.buttons === 0) tool.hover?.(this.#at(event), event);
+      if (mine) {
+        const all = event.getCoalescedEvents?.() ?? [];
+        for (const one of all.length ? all : [event]) tool.move?.(this.#at(one), one);
+      } else if (event.buttons === 0) tool.hover?.(this.#at(event), event);
       if (!mine) return; // the page reads what is under the pointer
     } else {
       if (!mine) return;
@@ -164,7 +191,8 @@ export class Tools {
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
     const [width, height] = [Math.round(parent.clientWidth * ratio), Math.round(parent.clientHeight * ratio)];
     if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, { width, height });
-    const pen = this.canvas.getContext('2d', { willReadFrequently: true }); // kept off the GPU, where Chromium may show it stale once it is empty
+    // kept off the GPU, where Chromium may show it stale once it is empty
+    const pen = this.canvas.getContext('2d', { willReadFrequently: true });
     pen.setTransform(1, 0, 0, 1, 0, 0);
     pen.clearRect(0, 0, width, height);
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);

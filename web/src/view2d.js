@@ -41,9 +41,23 @@ export class View2d {
     this.shores = [];
     if (sea && land.has) {
       const wet = land.has.map((h) => (h ? 0 : 1));
-      this.shores.push({ wet, away: distanceInside(wet, width, height, 64), deep: 11, shallow: [168, 205, 214], bed: [92, 134, 172] });
+      this.shores.push({
+        wet,
+        away: distanceInside(wet, width, height, 64),
+        deep: 11,
+        shallow: [168, 205, 214],
+        bed: [92, 134, 172],
+      });
     }
-    if (lakes) this.shores.push({ wet: lakes, away: distanceInside(lakes, width, height, 64), deep: 4, shallow: [150, 194, 214], bed: [96, 148, 184] });
+    if (lakes) {
+      this.shores.push({
+        wet: lakes,
+        away: distanceInside(lakes, width, height, 64),
+        deep: 4,
+        shallow: [150, 194, 214],
+        bed: [96, 148, 184],
+      });
+    }
   }
 
   #listen() {
@@ -66,7 +80,9 @@ export class View2d {
       held.set(event.pointerId, [event.offsetX, event.offsetY]);
       this.redraw();
     });
-    for (const kind of ['pointerup', 'pointercancel']) this.canvas.addEventListener(kind, (event) => held.delete(event.pointerId));
+    for (const kind of ['pointerup', 'pointercancel']) {
+      this.canvas.addEventListener(kind, (event) => held.delete(event.pointerId));
+    }
     this.canvas.addEventListener('wheel', (event) => {
       event.preventDefault();
       const [dx, dy] = [event.offsetX - this.parent.clientWidth / 2, event.offsetY - this.parent.clientHeight / 2];
@@ -161,7 +177,10 @@ export class View2d {
         const light = (-dx * sun[0] + dy * sun[1] + sun[2]) / Math.hypot(dx, dy, 1) - sun[2];
         const at = colourOf(this.painted, (values ?? z)[i]);
         const ground = palette.subarray(at, at + 3);
-        const share = light < 0 ? Math.min(1, -light / Math.max(sun[2], 0.2)) : 0.55 * Math.min(1, light / Math.max(1 - sun[2], 0.2));
+        const share =
+          light < 0
+            ? Math.min(1, -light / Math.max(sun[2], 0.2))
+            : 0.55 * Math.min(1, light / Math.max(1 - sun[2], 0.2));
         for (let k = 0; k < 3; ++k) {
           const end = light < 0 ? ground[k] * [0.26, 0.29, 0.4][k] : [255, 255, 245][k];
           picture.data[4 * i + k] = ground[k] + (end - ground[k]) * share;
@@ -209,7 +228,10 @@ export class View2d {
             if (p < wanted !== q < wanted) {
               const share = (wanted - p) / (q - p);
               const [a, b] = [corners[k], corners[(k + 1) % 4]];
-              cuts.push((a[0] + (b[0] - a[0]) * share + 0.5) * land.cells, (a[1] + (b[1] - a[1]) * share + 0.5) * land.cells);
+              cuts.push(
+                (a[0] + (b[0] - a[0]) * share + 0.5) * land.cells,
+                (a[1] + (b[1] - a[1]) * share + 0.5) * land.cells,
+              );
             }
           }
           for (let k = 0; k + 3 < cuts.length; k += 4) add(level, ...cuts.slice(k, k + 4));
@@ -219,8 +241,14 @@ export class View2d {
   }
 
   showLines({ orders, styles, ridges, marked, byClass, colours = orderColours }) {
-    this.groups = styles.map(({ width, colour, share }) => ({ lines: [], width, colour: byClass ? colours[share] : colour }));
-    orders.forEach((order, k) => order > 0 && this.groups[Math.min(order, styles.length) - 1].lines.push(this.rivers.lines[k]));
+    this.groups = styles.map(({ width, colour, share }) => ({
+      lines: [],
+      width,
+      colour: byClass ? colours[share] : colour,
+    }));
+    orders.forEach(
+      (order, k) => order > 0 && this.groups[Math.min(order, styles.length) - 1].lines.push(this.rivers.lines[k]),
+    );
     this.marked = marked;
     this.showsRidges = ridges;
     this.redraw();
@@ -239,7 +267,10 @@ export class View2d {
   }
 
   project(x, y) {
-    return { x: this.parent.clientWidth / 2 + (x - this.centre[0]) / this.cellsPerPixel, y: this.parent.clientHeight / 2 + (y - this.centre[1]) / this.cellsPerPixel };
+    return {
+      x: this.parent.clientWidth / 2 + (x - this.centre[0]) / this.cellsPerPixel,
+      y: this.parent.clientHeight / 2 + (y - this.centre[1]) / this.cellsPerPixel,
+    };
   }
 
   place(x, y) {
@@ -258,7 +289,14 @@ export class View2d {
     pen.setTransform(1, 0, 0, 1, 0, 0);
     pen.fillStyle = css(this.paper);
     pen.fillRect(0, 0, this.canvas.width, this.canvas.height);
-    pen.setTransform(scale, 0, 0, scale, this.canvas.width / 2 - this.centre[0] * scale, this.canvas.height / 2 - this.centre[1] * scale);
+    pen.setTransform(
+      scale,
+      0,
+      0,
+      scale,
+      this.canvas.width / 2 - this.centre[0] * scale,
+      this.canvas.height / 2 - this.centre[1] * scale,
+    );
     if (this.picture) {
       pen.imageSmoothingEnabled = true;
       pen.imageSmoothingQuality = 'high';
@@ -266,7 +304,9 @@ export class View2d {
       pen.beginPath();
       pen.rect(0, 0, this.land.grid.width, this.land.grid.height);
       pen.clip();
-      for (const layer of [this.picture, this.part]) if (layer) pen.drawImage(layer, 0, 0, this.land.width * this.land.cells, this.land.height * this.land.cells);
+      for (const layer of [this.picture, this.part]) {
+        if (layer) pen.drawImage(layer, 0, 0, this.land.width * this.land.cells, this.land.height * this.land.cells);
+      }
       pen.restore();
     }
     const px = this.ratio / scale;

@@ -1,8 +1,19 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The view by WebGL: orbit around the land, or a map with north above.
-import { ColorManagement, LinearSRGBColorSpace, MathUtils, OrthographicCamera, PerspectiveCamera, Raycaster, Scene, Spherical,
-  Vector2, Vector3, WebGLRenderer } from 'three';
+import {
+  ColorManagement,
+  LinearSRGBColorSpace,
+  MathUtils,
+  OrthographicCamera,
+  PerspectiveCamera,
+  Raycaster,
+  Scene,
+  Spherical,
+  Vector2,
+  Vector3,
+  WebGLRenderer,
+} from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { Ground } from './ground.js';
 import { contourPlaces, Labels } from './labels.js';
@@ -12,7 +23,10 @@ ColorManagement.enabled = false;
 
 /** What the machine draws with, on the canvas of the view to be, or null when there is no WebGL 2. */
 export function probe(antialias) {
-  const make = (smooth) => document.createElement('canvas').getContext('webgl2', { antialias: smooth, preserveDrawingBuffer: true, alpha: false });
+  const make = (smooth) =>
+    document
+      .createElement('canvas')
+      .getContext('webgl2', { antialias: smooth, preserveDrawingBuffer: true, alpha: false });
   const gl = make(false); // in software smoothing costs more than all else
   if (!gl) return null;
   const info = gl.getExtension('WEBGL_debug_renderer_info');
@@ -52,7 +66,14 @@ export class View3d {
     parent.append(this.canvas);
     this.labels = new Labels(parent);
     this.scene = new Scene();
-    this.ground = new Ground(land, options.segments ?? (gl.software ? 255 : 1023), gl.linear, options.lakes, options.sea, gl.software ? 256 : 512);
+    this.ground = new Ground(
+      land,
+      options.segments ?? (gl.software ? 255 : 1023),
+      gl.linear,
+      options.lakes,
+      options.sea,
+      gl.software ? 256 : 512,
+    );
     this.scene.add(this.ground.group, this.ground.sky, this.ground.ocean);
     this.perspective = new PerspectiveCamera(32, 1, 0.02, 90);
     this.flat = new OrthographicCamera(-1, 1, 1, -1, 0.02, 60);
@@ -75,8 +96,8 @@ export class View3d {
   }
 
   /**
-   * Shows other land or rivers from where the view stands; look(), paint() and showLines() must follow, and home() where
-   * the grid is another. Heights that stay the same stay where they are on the screen.
+   * Shows other land or rivers from where the view stands; look(), paint() and showLines() must follow, and home()
+   * where the grid is another. Heights that stay the same stay where they are on the screen.
    */
   replace(land, rivers, { lakes, sea }) {
     this.rivers = rivers;
@@ -107,7 +128,11 @@ export class View3d {
     const camera = this.perspective;
     camera.aspect = this.aspect;
     camera.updateProjectionMatrix();
-    const above = MathUtils.clamp(Math.asin(Math.min(1, (0.78 * land.grid.width) / land.grid.height / this.aspect)), MathUtils.degToRad(27), MathUtils.degToRad(58));
+    const above = MathUtils.clamp(
+      Math.asin(Math.min(1, (0.78 * land.grid.width) / land.grid.height / this.aspect)),
+      MathUtils.degToRad(27),
+      MathUtils.degToRad(58),
+    );
     const corners = ground.corners();
     const p = new Vector3();
     const room = -0.03; // for the buttons above
@@ -206,7 +231,12 @@ export class View3d {
     this.perspective.aspect = width / height;
     this.perspective.updateProjectionMatrix();
     const fit = 1.02 * Math.max(this.ground.halfZ, this.ground.halfX / this.perspective.aspect);
-    Object.assign(this.flat, { left: -fit * this.perspective.aspect, right: fit * this.perspective.aspect, top: fit, bottom: -fit });
+    Object.assign(this.flat, {
+      left: -fit * this.perspective.aspect,
+      right: fit * this.perspective.aspect,
+      top: fit,
+      bottom: -fit,
+    });
     this.flat.updateProjectionMatrix();
     this.draw();
   }
@@ -245,7 +275,9 @@ export class View3d {
     this.redraw();
   }
 
-  /** orders: by arc, 0: not shown. styles: by order {width, share}; ridges: whether to draw them; marked: lines to mark. */
+  /**
+   * orders: by arc, 0: not shown. styles: by order {width, share}; ridges: whether to draw them; marked: lines to mark.
+   */
   showLines({ orders, styles, ridges, marked, byClass, colours }) {
     const { rivers, land, ground } = this;
     const groups = styles.map(({ width, share }) => ({ lines: [], arcs: [], pixels: width, share, kind: 0 }));
@@ -256,8 +288,13 @@ export class View3d {
       group.arcs.push(k);
     });
     const side = 2 * ground.field.cells * land.grid.cell_m;
-    for (const group of groups) group.half = (l) => riverWidth((rivers.arcs.us_area[group.arcs[l]] + rivers.arcs.ds_area[group.arcs[l]]) / 2) / side;
-    if (ridges && rivers.ridges.length) groups.unshift({ lines: rivers.ridges, half: 0, pixels: 1.3, share: 0, kind: 1 });
+    for (const group of groups) {
+      group.half = (l) =>
+        riverWidth((rivers.arcs.us_area[group.arcs[l]] + rivers.arcs.ds_area[group.arcs[l]]) / 2) / side;
+    }
+    if (ridges && rivers.ridges.length) {
+      groups.unshift({ lines: rivers.ridges, half: 0, pixels: 1.3, share: 0, kind: 1 });
+    }
     groups.push({ lines: marked, half: 0, pixels: 3.2, share: 1, kind: 2 });
     this.ground.uniforms.lineByClass.value = byClass ? 1 : 0;
     if (byClass) this.ground.uniforms.lineColours.value = colours.map((c) => new Vector3(...c.map((v) => v / 255)));
@@ -318,7 +355,9 @@ export class View3d {
     let step = this.contour;
     if (this.onmap && step > 0) {
       const steep = Math.max(this.land.steepness(), 1e-6) * this.land.grid.cell_m;
-      while (step / steep / this.cellsPerPixel < 5) step *= Math.floor(step / 10 ** Math.floor(Math.log10(step) + 1e-9) + 1e-9) === 2 ? 2.5 : 2;
+      while (step / steep / this.cellsPerPixel < 5) {
+        step *= Math.floor(step / 10 ** Math.floor(Math.log10(step) + 1e-9) + 1e-9) === 2 ? 2.5 : 2;
+      }
     }
     u.contour.value = step;
     // Every fifth is heavier and labelled, as before they thinned out where that is one of those drawn.
@@ -340,10 +379,15 @@ export class View3d {
     while (this.waiting || this.resting) await new Promise((done) => setTimeout(done, 30));
   }
 
-  /** A place [cells] on the page [pixels], {x, y}, behind what stands before it and beside the view too; null: behind the camera. */
+  /**
+   * A place [cells] on the page [pixels], {x, y}, behind what stands before it and beside the view too; null: behind
+   * the camera.
+   */
   place(x, y) {
     const p = this.ground.spot(x, y).project(this.controls.object);
-    return p.z > 1 ? null : { x: ((p.x + 1) / 2) * this.parent.clientWidth, y: ((1 - p.y) / 2) * this.parent.clientHeight };
+    return p.z > 1
+      ? null
+      : { x: ((p.x + 1) / 2) * this.parent.clientWidth, y: ((1 - p.y) / 2) * this.parent.clientHeight };
   }
 
   /** A place [cells] on the page [pixels], {x, y}, or null where it is not in sight. */
@@ -364,7 +408,13 @@ export class View3d {
     const labels = [];
     this.controls.object.updateMatrixWorld();
     // The nearer, the more is named.
-    const room = Math.round(8 * Math.max(1, Math.max(this.land.grid.width, this.land.grid.height) / this.parent.clientWidth / this.cellsPerPixel));
+    const room = Math.round(
+      8 *
+        Math.max(
+          1,
+          Math.max(this.land.grid.width, this.land.grid.height) / this.parent.clientWidth / this.cellsPerPixel,
+        ),
+    );
     let named = 0;
     for (const { x, y, text, kind } of this.names) {
       if (named >= room) break;
@@ -388,7 +438,13 @@ export class View3d {
       }
     }
     const marks = this.marks.map(([x, y]) => this.project(x, y)).filter(Boolean).map(({ x, y }) => [x, y]);
-    this.labels.draw(labels, this.cellsPerPixel * this.land.grid.cell_m, marks, Math.min(window.devicePixelRatio || 1, 2), this.keepOut?.() ?? []);
+    this.labels.draw(
+      labels,
+      this.cellsPerPixel * this.land.grid.cell_m,
+      marks,
+      Math.min(window.devicePixelRatio || 1, 2),
+      this.keepOut?.() ?? [],
+    );
   }
 
   /** The place under a pixel of the canvas, {x, y} in cells, or null. */

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where water goes on the page's cells: D8 ways, drained areas, distances to the outlet and basins, made when first asked for.
+// Where water goes on the page's cells: D8 ways, drained areas, distances to the outlet and basins, made when first
+// asked for.
 import { bytesOf } from './unpack.js';
 
 const stepX = [0, 1, 1, 0, -1, -1, -1, 0, 1];
