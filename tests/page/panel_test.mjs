@@ -11,7 +11,8 @@ import path from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { barriers, launch, open, web } from './browser.mjs';
-import { madeAgainst, valleyLand, writePage } from './made_land.mjs';
+import { valleyLand } from '../../web/test/made_land.mjs';
+import { madeAgainst, writePage } from './made_page.mjs';
 
 const place = fs.mkdtempSync(path.join(os.tmpdir(), 'thalweg-panel-'));
 const vite = createRequire(path.join(web, 'package.json')).resolve('vite');
