@@ -37,7 +37,7 @@ function logarithmic(values) {
   };
 }
 
-function scale(values, { log, whole, least }) {
+function scale(values, { log, whole = false, least }) {
   if (log) return logarithmic(values);
   let low = Math.min(...values);
   let high = Math.max(...values);
@@ -83,6 +83,7 @@ export function layOut(series, what, width) {
   });
   const widest = Math.max(...y.ticks.map((t) => tick(t, what.logY).length));
   const box = { left: 10 + 6 * widest, top: 22, right: width - 10, bottom: height - 32 };
+  /** @param {number[]} point */
   const place = ([a, b]) => [
     box.left + x.share(a) * (box.right - box.left),
     box.bottom - y.share(b) * (box.bottom - box.top),
@@ -144,6 +145,132 @@ function strokes(s, { y, place }) {
   return parts;
 }
 
+/** A diagram as it lies in its figure: drawn anew at each width, and read by pointer and keys. */
+class Plot {
+  #series;
+  #what;
+  #tip = make('div', { className: 'tip', hidden: true });
+  #laid; // out, at the width it has
+  #hair;
+  #index = null; // that is read
+  element = make('div', { className: 'plot', tabIndex: 0 }, this.#tip);
+
+  /** series, what: as plot() has them; every series has a point. */
+  constructor(series, what) {
+    this.#series = series;
+    this.#what = what;
+    this.#paint(what.small ? 170 : 356);
+    new ResizeObserver(([{ contentRect }]) => {
+      const { width } = contentRect;
+      if (width > 0 && Math.abs(width - this.#laid.width) > 0.5) this.#paint(width);
+    }).observe(this.element);
+    this.#describe();
+    this.#follow();
+  }
+
+  #paint(width) {
+    const what = this.#what;
+    const laid = layOut(this.#series, what, width);
+    this.#laid = laid;
+    this.#hair = draw('g', { class: 'hair' });
+    const flags = (what.flags ?? [])
+      .map(laid.place)
+      .map(([x, y]) => draw('path', { class: 'flag', d: `M${x.toFixed(1)} ${(y - 4).toFixed(1)}l-4.5-8h9Z` }));
+    const lines = this.#series.flatMap((s) => strokes(s, laid));
+    this.element.querySelector('svg')?.remove();
+    const parts = [...axes(laid, what), ...lines, ...flags, this.#hair];
+    this.element.prepend(draw('svg', { width, height: laid.height, 'aria-hidden': 'true' }, ...parts));
+    this.read(this.#index);
+  }
+
+  /** The number of the point of a series that lies nearest to a share of the width. */
+  #nearest({ points }, share) {
+    const off = (p) => Math.abs(this.#laid.x.share(p[0]) - share);
+    return points.reduce((best, p, i) => (off(p) < off(points[best]) ? i : best), 0);
+  }
+
+  /** What all series have at a point of the first. */
+  #beside(index) {
+    const [first] = this.#series;
+    const share = this.#laid.x.share(first.points[index][0]);
+    return this.#series.map((s) => s.points[s === first ? index : this.#nearest(s, share)]);
+  }
+
+  #words(index) {
+    const [series, what] = [this.#series, this.#what];
+    const nameOf = (k) => (series.length > 1 ? `${series[k].name} ` : '');
+    const values = this.#beside(index).map((p, k) => nameOf(k) + withUnit(p[1], what.y));
+    return [withUnit(series[0].points[index][0], what.x), ...values, what.note?.(index)].filter(Boolean);
+  }
+
+  /** Shows what all series have at a point of the first; null: nothing. */
+  read(index) {
+    const { box, place, width } = this.#laid;
+    this.#index = index;
+    this.#tip.hidden = index === null;
+    this.#hair.replaceChildren();
+    if (index === null) return;
+    const places = this.#beside(index).map(place);
+    const [x] = places[0];
+    const dots = places.filter(([, y]) => Number.isFinite(y)).map(([cx, cy]) => draw('circle', { cx, cy, r: 3 }));
+    this.#hair.append(draw('line', { x1: x, x2: x, y1: box.top, y2: box.bottom }), ...dots);
+    this.#tip.replaceChildren(...this.#words(index).map((text) => make('span', { textContent: text })));
+    const isRight = x > width / 2;
+    this.#tip.style.left = isRight ? 'auto' : `${x + 8}px`;
+    this.#tip.style.right = isRight ? `${width - x + 8}px` : 'auto';
+  }
+
+  /** The same by the reader, who is told of it. */
+  #tell(index) {
+    this.read(index);
+    this.#speak(index ?? 0);
+    this.#what.onread?.(index);
+  }
+
+  #speak(index) {
+    this.element.setAttribute('aria-valuenow', index);
+    this.element.setAttribute('aria-valuetext', this.#words(index).join(', '));
+  }
+
+  /** To who does not see it: a slider is what a reader of charts by keyboard moves along them. */
+  #describe() {
+    const { title, x, y } = this.#what;
+    const range = ({ low, high }) => `from ${number(low)} to ${number(high)}`;
+    const attributes = {
+      role: 'slider',
+      'aria-label': `${title}: ${y}, ${range(this.#laid.y)}, against ${x}, ${range(this.#laid.x)}`,
+      'aria-valuemin': '0',
+      'aria-valuemax': String(this.#series[0].points.length - 1),
+    };
+    for (const [name, text] of Object.entries(attributes)) this.element.setAttribute(name, text);
+    this.#speak(0);
+  }
+
+  #follow() {
+    const { element } = this;
+    element.addEventListener('pointermove', (event) => {
+      const { left, right } = this.#laid.box;
+      const at = event.clientX - element.getBoundingClientRect().left;
+      this.#tell(this.#nearest(this.#series[0], (at - left) / (right - left)));
+    });
+    // A finger leaves when it rests.
+    element.addEventListener('pointerleave', (event) => event.pointerType !== 'touch' && this.#tell(null));
+    element.addEventListener('blur', () => this.#tell(null));
+    element.addEventListener('keydown', (event) => {
+      const last = this.#series[0].points.length - 1;
+      const page = Math.max(1, Math.round(last / 10));
+      const arrows = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 };
+      const by = { ...arrows, PageDown: -page, PageUp: page, Home: -last, End: last }[event.key];
+      const index = this.#index;
+      if (event.key === 'Escape') this.#tell(null);
+      else if (by && index === null && Math.abs(by) === 1) this.#tell(0);
+      else if (by) this.#tell(Math.min(last, Math.max(0, (index ?? 0) + by)));
+      else return;
+      event.preventDefault();
+    });
+  }
+}
+
 /**
  * all: [{points: [[x, y], …], name, kind: 'line' | 'area' | 'points', fit: [[x, y], …], tone: 0 | 1 | 2,
  * of lines also 3 | 'dem'}]; those without a point are not shown, and where a y is NaN a line has a gap. what: {title,
@@ -159,110 +286,11 @@ export function plot(all, what) {
   const figure = make('figure', {}, make('figcaption', { textContent: what.title }));
   if (!series.length) {
     figure.append(make('p', { className: 'hint', textContent: 'nothing to show' }));
-    return { figure, read: () => {} };
+    return { figure, read: (_index) => {} };
   }
-  const tip = make('div', { className: 'tip', hidden: true });
-  const field = make('div', { className: 'plot', tabIndex: 0 }, tip);
-  figure.append(field);
-  const [first] = series;
-  let laid;
-  let hair;
-  let now = null;
-
-  function paint(width) {
-    laid = layOut(series, what, width);
-    hair = draw('g', { class: 'hair' });
-    const flags = (what.flags ?? [])
-      .map(laid.place)
-      .map(([x, y]) => draw('path', { class: 'flag', d: `M${x.toFixed(1)} ${(y - 4).toFixed(1)}l-4.5-8h9Z` }));
-    field.querySelector('svg')?.remove();
-    field.prepend(draw('svg', { width, height: laid.height, 'aria-hidden': 'true' }, ...axes(laid, what),
-      ...series.flatMap((s) => strokes(s, laid)), ...flags, hair));
-    read(now);
-  }
-  const nearest = ({ points }, share) => {
-    const off = (p) => Math.abs(laid.x.share(p[0]) - share);
-    return points.reduce((best, p, i) => (off(p) < off(points[best]) ? i : best), 0);
-  };
-  /** What all series have at a point of the first. */
-  const beside = (index) =>
-    series.map((s) => s.points[s === first ? index : nearest(s, laid.x.share(first.points[index][0]))]);
-  const words = (index) =>
-    [
-      withUnit(first.points[index][0], what.x),
-      ...beside(index).map((p, k) => (series.length > 1 ? `${series[k].name} ` : '') + withUnit(p[1], what.y)),
-      what.note?.(index),
-    ].filter(Boolean);
-
-  function read(index) {
-    now = index;
-    tip.hidden = index === null;
-    hair.replaceChildren();
-    if (index === null) return;
-    const places = beside(index).map(laid.place);
-    const [x] = places[0];
-    hair.append(
-      draw('line', { x1: x, x2: x, y1: laid.box.top, y2: laid.box.bottom }),
-      ...places.filter(([, y]) => Number.isFinite(y)).map(([cx, cy]) => draw('circle', { cx, cy, r: 3 })),
-    );
-    tip.replaceChildren(...words(index).map((text) => make('span', { textContent: text })));
-    const right = x > laid.width / 2;
-    tip.style.left = right ? 'auto' : `${x + 8}px`;
-    tip.style.right = right ? `${laid.width - x + 8}px` : 'auto';
-  }
-  function tell(index) {
-    read(index);
-    value(index ?? 0);
-    what.onread?.(index);
-  }
-  function value(index) {
-    field.setAttribute('aria-valuenow', index);
-    field.setAttribute('aria-valuetext', words(index).join(', '));
-  }
-
-  paint(what.small ? 170 : 356);
-  new ResizeObserver(
-    ([
-      {
-        contentRect: { width },
-      },
-    ]) => width > 0 && Math.abs(width - laid.width) > 0.5 && paint(width),
-  ).observe(field);
-  // A slider is what a reader of charts by keyboard moves along them.
-  const last = first.points.length - 1;
-  const range = ({ low, high }) => `from ${number(low)} to ${number(high)}`;
-  Object.entries({
-    role: 'slider',
-    'aria-label': `${what.title}: ${what.y}, ${range(laid.y)}, against ${what.x}, ${range(laid.x)}`,
-    'aria-valuemin': 0,
-    'aria-valuemax': last,
-  }).forEach(([key, text]) => field.setAttribute(key, text));
-  value(0);
-  field.addEventListener('pointermove', (event) => {
-    const at = event.clientX - field.getBoundingClientRect().left;
-    tell(nearest(first, (at - laid.box.left) / (laid.box.right - laid.box.left)));
-  });
-  // a finger leaves when it rests
-  field.addEventListener('pointerleave', (event) => event.pointerType !== 'touch' && tell(null));
-  field.addEventListener('blur', () => tell(null));
-  field.addEventListener('keydown', (event) => {
-    const page = Math.max(1, Math.round(last / 10));
-    const by = {
-      ArrowLeft: -1,
-      ArrowDown: -1,
-      ArrowRight: 1,
-      ArrowUp: 1,
-      PageDown: -page,
-      PageUp: page,
-      Home: -last,
-      End: last,
-    }[event.key];
-    if (event.key === 'Escape') tell(null);
-    else if (by) tell(now === null && Math.abs(by) === 1 ? 0 : Math.min(last, Math.max(0, (now ?? 0) + by)));
-    else return;
-    event.preventDefault();
-  });
-  return { figure, read };
+  const drawn = new Plot(series, what);
+  figure.append(drawn.element);
+  return { figure, read: (index) => drawn.read(index) };
 }
 
 export const chart = (series, what) => plot(series, what).figure;

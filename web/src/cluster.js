@@ -7,11 +7,66 @@ import { bytesOf } from './unpack.js';
 const arms = ['north', 'east', 'south', 'west'];
 const colours = [[47, 122, 184], [217, 108, 30], [32, 145, 104], [178, 92, 148], [130, 130, 130]]; // the last: no arm
 
-/** choose(arm): an arm was clicked. choices: of the key. Gives {element, show(message or null), mark(branch)}. */
-export function clusterPicture(choices, choose) {
-  const canvas = make('canvas', { width: 1, height: 1 });
-  canvas.setAttribute('aria-hidden', 'true'); // the buttons beside it say the same
-  const buttons = choices.map((name) => {
+/** The least square that holds the cluster, and its longest arm. */
+function read({ arms: base64, width, height }) {
+  const bytes = bytesOf(base64);
+  const box = { c0: width, c1: 0, r0: height, r1: 0 };
+  const size = [0, 0, 0, 0, 0];
+  for (let r = 0, i = 0; r < height; ++r) {
+    for (let c = 0; c < width; ++c, ++i) {
+      if (!bytes[i]) continue;
+      ++size[bytes[i] - 1];
+      box.c0 = Math.min(box.c0, c);
+      box.c1 = Math.max(box.c1, c);
+      box.r0 = Math.min(box.r0, r);
+      box.r1 = Math.max(box.r1, r);
+    }
+  }
+  const side = Math.max(1, box.c1 - box.c0 + 1, box.r1 - box.r0 + 1);
+  const [c0, r0] = [(box.c0 + box.c1 + 1 - side) / 2, (box.r0 + box.r1 + 1 - side) / 2];
+  return { bytes, width, height, side, c0, r0, largest: arms[size.indexOf(Math.max(...size.slice(0, 4)))] };
+}
+
+/** Cells by arm in a square of the cluster, every step-th one, and how many were looked at. */
+function countArms({ bytes, width, height }, left, top, side, step) {
+  const counts = [0, 0, 0, 0, 0];
+  let seen = 0;
+  for (let r = Math.floor(top); r < Math.max(Math.floor(top) + 1, top + side); r += step) {
+    for (let c = Math.floor(left); c < Math.max(Math.floor(left) + 1, left + side); c += step) {
+      ++seen;
+      const arm = r >= 0 && c >= 0 && r < height && c < width ? bytes[r * width + c] : 0;
+      if (arm) ++counts[arm - 1];
+    }
+  }
+  return { counts, seen };
+}
+
+export class ClusterPicture {
+  #canvas = make('canvas', { width: 1, height: 1 });
+  #buttons;
+  #cells = null; // of the cluster, as read() gives them
+  #branch = '';
+
+  /** choices: of the key; choose(arm): an arm was clicked. */
+  constructor(choices, choose) {
+    this.#canvas.setAttribute('aria-hidden', 'true'); // the buttons beside it say the same
+    this.#buttons = choices.map((name) => this.#button(name, choose));
+    const group = make('div', { className: 'arms' }, ...this.#buttons);
+    group.setAttribute('role', 'group');
+    group.setAttribute('aria-label', 'Arm of the cluster that becomes the valley');
+    this.element = make('div', { className: 'cluster', hidden: true }, this.#canvas, group);
+    this.#canvas.addEventListener('pointermove', (event) => {
+      const arm = this.#armAt(event.offsetX, event.offsetY);
+      this.#canvas.style.cursor = arm ? 'pointer' : '';
+      this.#canvas.title = arm ? `Take the ${arm} arm` : '';
+    });
+    this.#canvas.addEventListener('click', (event) => {
+      const arm = this.#armAt(event.offsetX, event.offsetY);
+      if (arm) choose(arm);
+    });
+  }
+
+  #button(name, choose) {
     const swatch = make('i', {});
     const k = arms.indexOf(name);
     if (k >= 0) swatch.style.background = `rgb(${colours[k]})`;
@@ -19,80 +74,34 @@ export function clusterPicture(choices, choose) {
     button.dataset.arm = name;
     button.addEventListener('click', () => choose(name));
     return button;
-  });
-  const group = make('div', { className: 'arms' }, ...buttons);
-  group.setAttribute('role', 'group');
-  group.setAttribute('aria-label', 'Arm of the cluster that becomes the valley');
-  const element = make('div', { className: 'cluster', hidden: true }, canvas, group);
-  let cells = null; // {bytes, width, height, box}
-  let branch = '';
-
-  function read({ arms: base64, width, height }) {
-    const bytes = bytesOf(base64);
-    const box = { c0: width, c1: 0, r0: height, r1: 0 };
-    const size = [0, 0, 0, 0, 0];
-    for (let r = 0, i = 0; r < height; ++r) {
-      for (let c = 0; c < width; ++c, ++i) {
-        if (!bytes[i]) continue;
-        ++size[bytes[i] - 1];
-        box.c0 = Math.min(box.c0, c);
-        box.c1 = Math.max(box.c1, c);
-        box.r0 = Math.min(box.r0, r);
-        box.r1 = Math.max(box.r1, r);
-      }
-    }
-    const side = Math.max(1, box.c1 - box.c0 + 1, box.r1 - box.r0 + 1);
-    return {
-      bytes,
-      width,
-      height,
-      side,
-      c0: (box.c0 + box.c1 + 1 - side) / 2,
-      r0: (box.r0 + box.r1 + 1 - side) / 2,
-      largest: arms[size.indexOf(Math.max(...size.slice(0, 4)))],
-    };
   }
 
-  function draw() {
+  #draw() {
+    const cells = this.#cells;
     if (!cells) return;
-    const { bytes, width, height, side, c0, r0 } = cells;
     const pixels = Math.round(116 * Math.min(window.devicePixelRatio || 1, 2));
-    canvas.width = canvas.height = pixels;
-    const chosen = branch === 'largest' ? cells.largest : branch;
+    this.#canvas.width = this.#canvas.height = pixels;
+    const chosen = this.#branch === 'largest' ? cells.largest : this.#branch;
     const picture = new ImageData(pixels, pixels);
-    const per = side / pixels;
+    const per = cells.side / pixels;
     const step = Math.max(1, Math.floor(per / 3));
     for (let y = 0; y < pixels; ++y) {
       for (let x = 0; x < pixels; ++x) {
-        const most = [0, 0, 0, 0, 0];
-        let seen = 0;
-        for (
-          let r = Math.floor(r0 + y * per);
-          r < Math.max(Math.floor(r0 + y * per) + 1, r0 + (y + 1) * per);
-          r += step
-        ) {
-          for (
-            let c = Math.floor(c0 + x * per);
-            c < Math.max(Math.floor(c0 + x * per) + 1, c0 + (x + 1) * per);
-            c += step
-          ) {
-            ++seen;
-            const arm = r >= 0 && c >= 0 && r < height && c < width ? bytes[r * width + c] : 0;
-            if (arm) ++most[arm - 1];
-          }
-        }
-        const k = most.indexOf(Math.max(...most));
-        if (!most[k]) continue;
-        const weight = Math.min(1, (2.2 * most[k]) / seen) * (chosen === 'all' || arms[k] === chosen ? 1 : 0.32);
+        const { counts, seen } = countArms(cells, cells.c0 + x * per, cells.r0 + y * per, per, step);
+        const k = counts.indexOf(Math.max(...counts));
+        if (!counts[k]) continue;
+        const weight = Math.min(1, (2.2 * counts[k]) / seen) * (chosen === 'all' || arms[k] === chosen ? 1 : 0.32);
         picture.data.set([...colours[k], Math.round(255 * weight)], 4 * (y * pixels + x));
       }
     }
-    canvas.getContext('2d').putImageData(picture, 0, 0);
+    this.#canvas.getContext('2d').putImageData(picture, 0, 0);
   }
 
-  /** The arm nearest to a place of the picture, within some pixels. */
-  function armAt(px, py) {
-    const per = cells.side / canvas.clientWidth;
+  /** The arm nearest to a place of the picture, within some pixels, or null. */
+  #armAt(px, py) {
+    const cells = this.#cells;
+    if (!cells) return null;
+    const per = cells.side / this.#canvas.clientWidth;
     const [x, y] = [cells.c0 + px * per, cells.r0 + py * per];
     const reach = Math.ceil(7 * per);
     let least = reach * reach + 1;
@@ -108,27 +117,18 @@ export function clusterPicture(choices, choose) {
     }
     return arms[found - 1] ?? null;
   }
-  canvas.addEventListener('pointermove', (event) => {
-    const arm = cells && armAt(event.offsetX, event.offsetY);
-    canvas.style.cursor = arm ? 'pointer' : '';
-    canvas.title = arm ? `Take the ${arm} arm` : '';
-  });
-  canvas.addEventListener('click', (event) => {
-    const arm = cells && armAt(event.offsetX, event.offsetY);
-    if (arm) choose(arm);
-  });
 
-  return {
-    element,
-    show(message) {
-      cells = message?.arms ? read(message) : null;
-      element.hidden = !cells;
-      draw();
-    },
-    mark(name) {
-      branch = name;
-      for (const b of buttons) b.setAttribute('aria-pressed', String(b.dataset.arm === name));
-      draw();
-    },
-  };
+  /** message: of the program; null or without a cluster: the picture goes. */
+  show(message) {
+    this.#cells = message?.arms ? read(message) : null;
+    this.element.hidden = !this.#cells;
+    this.#draw();
+  }
+
+  /** branch: the arm that is taken, 'largest' or 'all'. */
+  mark(branch) {
+    this.#branch = branch;
+    for (const button of this.#buttons) button.setAttribute('aria-pressed', String(button.dataset.arm === branch));
+    this.#draw();
+  }
 }

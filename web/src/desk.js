@@ -23,16 +23,22 @@ export class Desk {
   level = null; // of lakes to be drawn
   onchange = () => {}; // of what stands beside the view too
   onask = () => {}; // the field of what is chosen is to be filled in
-  ontell = () => {}; // (text, {at: [x, y], bad})
+  onrefused = (_ghost) => {};
+  /** @type {(text: string, about: {at?: number[] | null, bad?: boolean}) => void} */
+  ontell = () => {};
   quiet = () => {}; // what was told is gone
-  speak = () => {}; // to who does not see
+  /** @type {(text: string) => void} to who does not see */
+  speak = () => {};
   #queue = [];
   #runs = false;
+  /** @type {(value?: any) => void} */
   #arrived = () => {};
 
   /** view: of page.js; ask(question): a promise of the reply; revision(): of the document now. */
   constructor(view, ask, revision) {
-    Object.assign(this, { view, ask, revision });
+    this.view = view;
+    this.ask = ask;
+    this.revision = revision;
   }
 
   /** Whether the drawing is of the document as it is now: rivers of a generator come with their land. */
@@ -63,6 +69,11 @@ export class Desk {
     this.hovered = null;
     this.#arrived();
     this.onchange();
+  }
+
+  /** What is chosen, where it is of a kind, or null. */
+  chosenOf(kind) {
+    return this.chosen?.kind === kind ? this.chosen : null;
   }
 
   choose(object, vertex_ = -1) {
@@ -137,7 +148,7 @@ export class Desk {
       this.#restore(ghost);
       setTimeout(() => this.#forget(ghost), 900);
       this.ontell(error.message.replace(/^studio\.\w+: /, ''), { at: error.at, bad: true });
-      this.onrefused?.(ghost);
+      this.onrefused(ghost);
       return null;
     }
   }

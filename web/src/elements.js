@@ -1,11 +1,41 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the panel is made of.
+// Elements of the page: those that are there, and those that it is made of.
 
+/** @param {string} id of an element of report.html */
+export const byId = (id) => /** @type {HTMLElement} */ (document.getElementById(id));
+
+/** @param {string} id */
+export const inputById = (id) => /** @type {HTMLInputElement} */ (byId(id));
+
+/** @param {string} id */
+export const selectById = (id) => /** @type {HTMLSelectElement} */ (byId(id));
+
+/** Tells something in the middle of the view; '': it is gone. */
+export function tellAll(words) {
+  byId('message').textContent = words;
+  byId('message').hidden = words === '';
+}
+
+/**
+ * An element with properties of its own and with children, of which those that are false, null or '' are left out.
+ * @template {keyof HTMLElementTagNameMap} Tag
+ * @param {Tag} tag
+ * @param {Record<string, any>} properties
+ * @param {any[]} children
+ * @returns {HTMLElementTagNameMap[Tag]}
+ */
 export function make(tag, properties = {}, ...children) {
   const e = Object.assign(document.createElement(tag), properties);
   e.append(...children.filter((child) => child || child === 0));
   return e;
+}
+
+/** A button that does something when it is clicked. */
+export function button(textContent, title, click) {
+  const element = make('button', { type: 'button', textContent, title });
+  element.addEventListener('click', click);
+  return element;
 }
 
 /** An element of SVG: its attributes, then text or elements in it. */
@@ -52,7 +82,7 @@ export function sign(text, words, className) {
 }
 
 /** Which mark is whose: [[name, mark], …]. */
-export function legend(marks, { wide } = {}) {
+export function legend(marks, { wide = false } = {}) {
   const box = wide ? { class: 'mark wide', viewBox: '-12 -6 24 12' } : { class: 'mark', viewBox: '-6 -6 12 12' };
   return make(
     'p',
@@ -81,20 +111,20 @@ export function save(blob, title, ending) {
 }
 
 export function copyable(text, label) {
-  const button = make('button', { type: 'button', textContent: 'Copy' });
-  button.setAttribute('aria-label', `Copy ${label}`);
+  const copy = make('button', { type: 'button', textContent: 'Copy' });
+  copy.setAttribute('aria-label', `Copy ${label}`);
   const box = make('pre', { textContent: text, tabIndex: 0 });
   box.setAttribute('aria-label', label);
   box.setAttribute('role', 'region');
-  button.addEventListener('click', async () => {
+  copy.addEventListener('click', async () => {
     try {
       await navigator.clipboard.writeText(text);
-      button.textContent = 'Copied';
+      copy.textContent = 'Copied';
     } catch { // a page from a file may not write to the clipboard
       getSelection().selectAllChildren(box);
-      button.textContent = 'Selected';
+      copy.textContent = 'Selected';
     }
-    setTimeout(() => (button.textContent = 'Copy'), 1500);
+    setTimeout(() => (copy.textContent = 'Copy'), 1500);
   });
-  return make('div', { className: 'copy' }, button, box);
+  return make('div', { className: 'copy' }, copy, box);
 }

@@ -69,162 +69,200 @@ export function limits({ range, unit, standard }) {
 
 let count = 0;
 
-/**
- * A field of a key. path: the key's in this recipe ("patch.2.rotate"); act: {trying(path, value), set(path, value),
- * unset(path)}, the last two give promises. Gives {element, show(value or undefined)}.
- */
-export function field(key, path, act) {
-  const id = `key${++count}`;
-  const name = path.split('.').at(-1);
-  const title = `${path}: ${limits(key)}`;
-  const refused = make('p', { className: 'refused', hidden: true, id: `${id}e` });
-  refused.setAttribute('role', 'alert');
-  const back = make('button', {
-    type: 'button',
-    className: 'back',
-    textContent: '↺',
-    title: `Back to the default${key.standard ? ` (${plain(key.standard)})` : ''}`,
-  });
-  back.setAttribute('aria-label', `${name}: back to the default`);
-  const label = make(
-    'label',
-    { htmlFor: id },
-    name.replace(/_/g, ' '),
-    key.unit && make('small', { textContent: ` ${key.unit}` }),
-  );
-  const control = make('span', { className: 'control' });
-  const element = make('div', { className: 'key' }, label, control, back, refused);
-  element.dataset.path = path;
-  let shown;
-  let write;
-  const say = (error) => {
-    refused.textContent = error?.message ?? '';
-    refused.hidden = !error;
+const wordsOf = (path) => path.split('.').at(-1).replace(/_/g, ' ');
+
+// What the value of a key is edited by, one function a type: {nodes, write(value): shows it}. field: of the key;
+// set(value): the reader has given it.
+
+function checkbox(field, set) {
+  const box = field.input({ type: 'checkbox' });
+  box.addEventListener('change', () => set(String(box.checked)));
+  return { nodes: [box], write: (value) => (box.checked = (value || plain(field.key.standard)) === 'true') };
+}
+
+function list({ id, key, title }, set) {
+  const select = make('select', { id, title });
+  select.addEventListener('change', () => set(select.value));
+  const write = (value) => {
+    const all = key.choices.includes(value) ? key.choices : [value, ...key.choices];
+    select.replaceChildren(...all.map((v) => make('option', { value: v, textContent: v === '' ? '–' : v })));
+    select.value = value;
   };
-  const settle = async (promise) => {
-    say(null);
+  return { nodes: [select], write };
+}
+
+/** Some numbers that are one value. */
+function numbers(field, set) {
+  const { id, key, path } = field;
+  const fields = Array.from({ length: lists[key.type.split(' ')[0]] }, (_, i) => {
+    const one = field.input({ type: 'number', step: 'any', id: i ? '' : id });
+    one.setAttribute('aria-label', `${wordsOf(path)}, ${i + 1}`);
+    return one;
+  });
+  for (const one of fields) {
+    one.addEventListener('change', () => {
+      const all = fields.map((f) => f.value);
+      if (all.every((v) => v !== '')) set(`[${all.join(', ')}]`);
+      else if (all.every((v) => v === '')) set('');
+    });
+  }
+  return { nodes: fields, write: (value) => fields.forEach((f, i) => (f.value = parts(value)[i] ?? '')) };
+}
+
+/** A slider beside a field: it tries while it is drawn, and sets when it is let go. */
+function slider(field, walk, text, set) {
+  const { act, path, title } = field;
+  const range = make('input', { type: 'range', min: 0, max: 1000, step: 1, title });
+  range.setAttribute('aria-label', `${wordsOf(path)}, slider`);
+  let isDrawn = false;
+  range.addEventListener('input', () => {
+    isDrawn = true;
+    text.value = String(walk.toValue(Number(range.value)));
+    range.setAttribute('aria-valuetext', text.value);
+    act.trying(path, text.value);
+  });
+  // Drawn away and back again is no change.
+  const putBack = () => {
+    isDrawn = false;
+    act.trying(path, field.shown);
+    field.put(field.shown);
+  };
+  range.addEventListener('change', () => {
+    isDrawn = false;
+    if (text.value === field.shown) putBack();
+    else set(text.value);
+  });
+  const letGo = () => setTimeout(() => isDrawn && putBack());
+  range.addEventListener('pointerup', letGo);
+  range.addEventListener('blur', letGo);
+  const follow = () => {
+    if (isDrawn) return;
+    const value = text.value === '' ? Number(text.placeholder) || 0 : Number(text.value);
+    range.value = String(walk.toPlace(value));
+    range.setAttribute('aria-valuetext', text.value || 'default');
+  };
+  return { range, follow };
+}
+
+function text(field, set) {
+  const { id, key } = field;
+  const isNumber = /^(integer|number)$/.test(key.type);
+  const box = field.input(isNumber ? { type: 'number', step: 'any' } : { type: 'text' });
+  box.placeholder = key.is_file ? 'no file' : isNumber ? plain(key.standard).split(' ')[0] || 'left out' : '';
+  const walk = scale(key);
+  const { range, follow } = walk ? slider(field, walk, box, set) : { range: null, follow() {} };
+  const write = (value) => {
+    box.value = value;
+    follow();
+  };
+  box.addEventListener('change', () => set(box.value.trim()));
+  box.addEventListener('keydown', (event) => {
+    if (event.key !== 'Escape') return;
+    write(plain(field.shown));
+    event.stopPropagation();
+  });
+  /** @type {HTMLElement[]} */
+  const nodes = range ? [range] : [];
+  if (key.choices.length) {
+    const choices = make('datalist', { id: `${id}l` }, ...key.choices.map((value) => make('option', { value })));
+    box.setAttribute('list', choices.id);
+    nodes.push(choices);
+  }
+  return { nodes: [...nodes, box], write };
+}
+
+function controlOf({ type, range, choices }) {
+  if (type === 'yes/no') return checkbox;
+  if (closed({ range, choices })) return list;
+  return type.split(' ')[0] in lists ? numbers : text;
+}
+
+/** A field of a key. */
+export class Field {
+  /** The value as it stands in the recipe, without quotes. */
+  shown;
+  #write;
+  #back;
+  #refused;
+
+  /**
+   * path: the key's in this recipe ("patch.2.rotate"); act: {trying(path, value), set(path, value), unset(path)}, the
+   * last two give promises.
+   */
+  constructor(key, path, act) {
+    this.key = key;
+    this.path = path;
+    this.act = act;
+    this.id = `key${++count}`;
+    this.title = `${path}: ${limits(key)}`;
+    this.#refused = make('p', { className: 'refused', hidden: true, id: `${this.id}e` });
+    this.#refused.setAttribute('role', 'alert');
+    this.#back = this.#backButton();
+    const unit = key.unit && make('small', { textContent: ` ${key.unit}` });
+    const label = make('label', { htmlFor: this.id }, wordsOf(path), unit);
+    const { nodes, write } = controlOf(key)(this, (value) => this.#set(value));
+    this.#write = write;
+    const control = make('span', { className: 'control' }, ...nodes);
+    control.classList.toggle('wide', nodes.length > 1 || /^text/.test(key.type));
+    this.element = make('div', { className: 'key' }, label, control, this.#back, this.#refused);
+    this.element.dataset.path = path;
+  }
+
+  #backButton() {
+    const { act, key, path } = this;
+    const title = `Back to the default${key.standard ? ` (${plain(key.standard)})` : ''}`;
+    const back = make('button', { type: 'button', className: 'back', textContent: '↺', title });
+    back.setAttribute('aria-label', `${path.split('.').at(-1)}: back to the default`);
+    back.addEventListener('click', () => this.#settle(act.unset(path)));
+    return back;
+  }
+
+  /** An input of this field. */
+  input(properties) {
+    const { id, title } = this;
+    return Object.assign(make('input', { id, title, autocomplete: 'off', spellcheck: false }), properties);
+  }
+
+  #say(error) {
+    this.#refused.textContent = error?.message ?? '';
+    this.#refused.hidden = !error;
+  }
+
+  /** What is refused is told beside the field, which shows the former value again. */
+  async #settle(promise) {
+    this.#say(null);
     try {
       await promise;
     } catch (error) {
-      say(error);
-      show(shown);
+      this.#say(error);
+      this.put(this.shown);
     }
-  };
-  const set = (value) => {
-    if (value === shown) return;
-    if (value === '' && key.type !== 'text') settle(act.unset(path));
-    else settle(act.set(path, value));
-  };
-  const input = (properties) =>
-    Object.assign(make('input', { id, title, autocomplete: 'off', spellcheck: false }), properties);
-
-  if (key.type === 'yes/no') {
-    const box = input({ type: 'checkbox' });
-    box.addEventListener('change', () => set(String(box.checked)));
-    write = (value) => (box.checked = (value || plain(key.standard)) === 'true');
-    control.append(box);
-  } else if (closed(key)) {
-    const list = make('select', { id, title });
-    list.addEventListener('change', () => set(list.value));
-    write = (value) => {
-      list.replaceChildren(
-        ...[...(key.choices.includes(value) ? [] : [value]), ...key.choices].map((v) =>
-          make('option', { value: v, textContent: v === '' ? '–' : v }),
-        ),
-      );
-      list.value = value;
-    };
-    control.append(list);
-  } else if (key.type.split(' ')[0] in lists) {
-    const fields = Array.from({ length: lists[key.type.split(' ')[0]] }, (_, i) => {
-      const one = input({ type: 'number', step: 'any', id: i ? '' : id });
-      one.setAttribute('aria-label', `${name.replace(/_/g, ' ')}, ${i + 1}`);
-      return one;
-    });
-    for (const one of fields) {
-      one.addEventListener('change', () => {
-        const all = fields.map((f) => f.value);
-        if (all.every((v) => v !== '')) set(`[${all.join(', ')}]`);
-        else if (all.every((v) => v === '')) set('');
-      });
-    }
-    write = (value) => fields.forEach((f, i) => (f.value = parts(value)[i] ?? ''));
-    control.append(...fields);
-  } else {
-    const figure = /^(integer|number)$/.test(key.type);
-    const text = input(figure ? { type: 'number', step: 'any' } : { type: 'text' });
-    text.placeholder = key.is_file ? 'no file' : figure ? plain(key.standard).split(' ')[0] || 'left out' : '';
-    text.addEventListener('change', () => set(text.value.trim()));
-    text.addEventListener(
-      'keydown',
-      (event) => event.key === 'Escape' && (write(plain(shown)), event.stopPropagation()),
-    );
-    const walk = scale(key);
-    if (walk) control.append(slider(walk, text, `${name.replace(/_/g, ' ')}, slider`));
-    write = (value) => {
-      text.value = value;
-      text.dispatchEvent(new Event('shown'));
-    };
-    if (key.choices.length) {
-      const list = make('datalist', { id: `${id}l` }, ...key.choices.map((value) => make('option', { value })));
-      text.setAttribute('list', list.id);
-      control.append(list);
-    }
-    control.append(text);
-  }
-  control.classList.toggle('wide', control.childElementCount > 1 || /^text/.test(key.type));
-
-  /** A slider beside a field: it tries while it is drawn, and sets when it is let go. */
-  function slider(walk, text, words) {
-    const range = make('input', { type: 'range', min: 0, max: 1000, step: 1, title });
-    range.setAttribute('aria-label', words);
-    let drawn = false;
-    range.addEventListener('input', () => {
-      drawn = true;
-      text.value = String(walk.toValue(Number(range.value)));
-      range.setAttribute('aria-valuetext', text.value);
-      act.trying(path, text.value);
-    });
-    range.addEventListener('change', () => {
-      drawn = false;
-      if (text.value === shown) undrawn();
-      else set(text.value);
-    });
-    // Drawn away and back again is no change.
-    const undrawn = () => {
-      drawn = false;
-      act.trying(path, shown);
-      show(shown);
-    };
-    const letGo = () => setTimeout(() => drawn && undrawn());
-    range.addEventListener('pointerup', letGo);
-    range.addEventListener('blur', letGo);
-    text.addEventListener('shown', () => {
-      if (drawn) return;
-      const value = text.value === '' ? Number(text.placeholder) || 0 : Number(text.value);
-      range.value = walk.toPlace(value);
-      range.setAttribute('aria-valuetext', text.value || 'default');
-    });
-    return range;
   }
 
-  back.addEventListener('click', () => settle(act.unset(path)));
-  /** value: as it stands in the recipe; null where the key is left out, undefined where it has no effect. */
-  function show(value) {
-    shown = plain(value);
-    write(shown);
-    const changed = shown !== '' && !isStandard(key, value);
-    element.classList.toggle('changed', changed);
-    back.style.visibility = changed ? '' : 'hidden';
+  #set(value) {
+    const { act, key, path } = this;
+    if (value === this.shown) return;
+    if (value === '' && key.type !== 'text') this.#settle(act.unset(path));
+    else this.#settle(act.set(path, value));
   }
-  return {
-    element, path, key,
-    show(value) {
-      if (plain(value) !== shown) say(null); // a refusal stays until the key is another
-      show(value);
-    },
-    get changed() {
-      return element.classList.contains('changed');
-    },
-  };
+
+  /** Shows a value; value: as it stands in the recipe; null where the key is left out, undefined: without effect. */
+  put(value) {
+    this.shown = plain(value);
+    this.#write(this.shown);
+    const isChanged = this.shown !== '' && !isStandard(this.key, value);
+    this.element.classList.toggle('changed', isChanged);
+    this.#back.style.visibility = isChanged ? '' : 'hidden';
+  }
+
+  /** Shows the value of another document. */
+  show(value) {
+    if (plain(value) !== this.shown) this.#say(null); // a refusal stays until the key is another
+    this.put(value);
+  }
+
+  /** Whether the value is not the default. */
+  get changed() {
+    return this.element.classList.contains('changed');
+  }
 }

@@ -3,9 +3,10 @@
 // The page: what is packed in it, and a view of it.
 import './style.css';
 import { Land } from './land.js';
-import { createPage, tellAll } from './page.js';
+import { tellAll } from './elements.js';
+import { Page } from './page.js';
 import { Rivers } from './rivers.js';
-import { openStudio } from './studio.js';
+import { Studio } from './studio.js';
 import { Water } from './water.js';
 
 const text = (id) => document.getElementById(id).textContent;
@@ -30,8 +31,8 @@ function packed() {
 window.addEventListener('error', (event) => fail(event.error ?? event.message));
 try {
   const studio = text('studio').trim();
-  if (studio.startsWith('{')) openStudio(JSON.parse(studio), state);
-  else createPage(packed(), state);
+  if (studio.startsWith('{')) new Studio(JSON.parse(studio), state);
+  else new Page(packed(), state);
 } catch (error) {
   fail(error);
   console.error(error);

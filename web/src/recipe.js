@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The recipe as folded sections of fields, those in use first, with a filter and a line of help.
 import { make } from './elements.js';
-import { field, limits } from './fields.js';
+import { Field, limits } from './fields.js';
 
 const titles = {
   grid: 'Grid',
@@ -28,171 +28,198 @@ const sectionOf = (path) => path.split('.').slice(0, -1).join('.');
 /** "patch.2.rotate" is the key "patch.rotate". */
 const keyOf = (path) => path.replace(/\.\d+(?=\.)/g, '');
 
-/**
- * keys: of @@STUDIO@@. act: {trying(path, value), set(path, value), unset(path)}; leave: paths that have their places
- * elsewhere. Gives {element, show(document)}.
- */
-export function recipeForm(keys, act, leave) {
-  const byPath = new Map(keys.map((key) => [key.path, key]));
-  const sections = new Map();
-  let values = {};
-  const search = make('input', { type: 'search', id: 'find-key', placeholder: 'Find a key', autocomplete: 'off' });
-  search.setAttribute('aria-label', 'Find a key');
-  const used = make('div');
-  const unused = make('div');
-  const rest = make('details', { className: 'unused' }, make('summary', { textContent: 'Not in this recipe' }), unused);
-  const nothing = make('p', {
-    className: 'hint',
-    textContent: 'No key has this in its name or meaning.',
-    hidden: true,
-  });
-  const help = make('div', { id: 'key-help' });
-  const element = make(
-    'section',
-    { id: 'keys-form' },
-    make('h2', { textContent: 'Recipe' }),
-    search,
-    nothing,
-    used,
-    rest,
-    help,
+/** Puts children in an order, touching none that are in place: moving one would take its focus. */
+function order(parent, children) {
+  children.forEach(
+    (child, i) => parent.children[i] !== child && parent.insertBefore(child, parent.children[i] ?? null),
   );
-  element.setAttribute('aria-label', 'Recipe');
+  while (parent.children.length > children.length) parent.lastElementChild.remove();
+}
 
-  function describe(path) {
-    const key = byPath.get(keyOf(path));
-    if (!key || help.dataset.path === path) return;
-    help.dataset.path = path;
-    help.replaceChildren(
+/** A folded section and its fields. */
+class Section {
+  #effective = make('div');
+  #idle = make('details', { className: 'more-keys' }, make('summary', { textContent: 'Without effect now' }));
+  #count = make('small', { className: 'many' });
+  #remove;
+  #refused;
+
+  /** fields: of fields.js; unset(path): takes the section out of the recipe, gives a promise. */
+  constructor(name, fields, unset) {
+    this.name = name;
+    this.fields = fields;
+    const textContent = `Take “${titleOf(name)}” out`;
+    this.#remove = make('button', { type: 'button', className: 'remove', textContent });
+    this.#remove.addEventListener('click', () => this.#takeOut(unset));
+    this.#refused = make('p', { className: 'refused', hidden: true });
+    this.#refused.setAttribute('role', 'alert');
+    const head = make('summary', {}, titleOf(name), this.#count);
+    const parts = [head, this.#effective, this.#idle, this.#remove, this.#refused];
+    this.element = make('details', { className: 'keys-section' }, ...parts);
+  }
+
+  async #takeOut(unset) {
+    this.#refused.hidden = true;
+    try {
+      await unset(this.name);
+    } catch (error) {
+      Object.assign(this.#refused, { textContent: error.message, hidden: false });
+    }
+  }
+
+  /** values: of the document; isUsed: the recipe has the section. */
+  show(values, isUsed) {
+    const { fields, name } = this;
+    const effective = isUsed ? fields.filter((f) => values[f.path] !== undefined) : fields;
+    const idle = fields.filter((f) => !effective.includes(f));
+    order(this.#effective, effective.map((f) => f.element));
+    order(this.#idle, [this.#idle.firstElementChild, ...idle.map((f) => f.element)]);
+    this.#idle.hidden = idle.length === 0;
+    for (const f of fields) f.show(values[f.path]);
+    const changed = fields.filter((f) => f.changed).length;
+    this.#count.textContent = isUsed && changed ? ` ${changed} changed` : '';
+    const isNeeded = ['grid', 'network', 'surface', 'output'].includes(name) || name.startsWith('network.');
+    this.#remove.hidden = !isUsed || isNeeded;
+  }
+
+  /** Shows the fields that all words are found in, and gives how many they are. */
+  find(words) {
+    let found = 0;
+    for (const { element, path, key } of this.fields) {
+      // Anywhere in the path, at the beginning of words of the meaning.
+      const name = `${path} ${path.replaceAll('_', ' ')}`.toLowerCase();
+      const meaning = ` ${key.meaning.toLowerCase().replace(/[^\p{L}\p{N}]+/gu, ' ')}`;
+      const isHit = words.every((word) => name.includes(word) || meaning.includes(` ${word}`));
+      element.hidden = !isHit;
+      if (isHit) ++found;
+    }
+    this.element.hidden = words.length > 0 && found === 0;
+    if (words.length) {
+      this.element.open = found > 0;
+      this.#idle.open = this.#idle.querySelector('.key:not([hidden])') !== null;
+    }
+    this.#remove.classList.toggle('away', words.length > 0);
+    return found;
+  }
+}
+
+/** The names of a recipe's sections, and of those that it may have besides. paths: of all keys; now: of the recipe. */
+function sectionsOf(paths, now) {
+  const all = [...new Set(paths.map(sectionOf))].filter(Boolean);
+  const used = all.flatMap((name) =>
+    now.filter((one) => one === name || (one.startsWith(`${name}.`) && /^\d+$/.test(one.slice(name.length + 1)))),
+  );
+  for (const name of now) if (!used.includes(name) && name) used.push(name);
+  // Of numbered sections another may be added.
+  const unused = all.flatMap((name) => {
+    const numbers = used
+      .filter((one) => one !== name && keyOf(`${one}.`) === `${name}.`)
+      .map((one) => Number(one.slice(name.length + 1)));
+    if (used.includes(name)) return [];
+    return numbers.length ? [`${name}.${Math.max(...numbers) + 1}`] : [name];
+  });
+  return { used, unused };
+}
+
+export class RecipeForm {
+  #keys;
+  #act;
+  #leave;
+  #sections = new Map(); // by name
+  #values = {};
+  #open = null; // what was unfolded before something was sought
+  #search = make('input', { type: 'search', id: 'find-key', placeholder: 'Find a key', autocomplete: 'off' });
+  #nothing = make('p', { className: 'hint', textContent: 'No key has this in its name or meaning.', hidden: true });
+  #used = make('div');
+  #unused = make('div');
+  #rest = make(
+    'details', { className: 'unused' }, make('summary', { textContent: 'Not in this recipe' }), this.#unused,
+  );
+  #help = make('div', { id: 'key-help' });
+
+  /**
+   * keys: as the program gives them (README.md). act: {trying(path, value), set(path, value), unset(path)}; leave:
+   * paths that have their places elsewhere.
+   */
+  constructor(keys, act, leave) {
+    this.#keys = keys;
+    this.#act = act;
+    this.#leave = leave;
+    const head = make('h2', { textContent: 'Recipe' });
+    const parts = [head, this.#search, this.#nothing, this.#used, this.#rest, this.#help];
+    this.element = make('section', { id: 'keys-form' }, ...parts);
+    this.element.setAttribute('aria-label', 'Recipe');
+    for (const kind of ['focusin', 'pointerover']) {
+      this.element.addEventListener(kind, ({ target }) => {
+        const at = /** @type {HTMLElement} */ (target).closest('.key');
+        if (at) this.#describe(/** @type {HTMLElement} */ (at).dataset.path);
+      });
+    }
+    this.#search.setAttribute('aria-label', 'Find a key');
+    this.#search.addEventListener('input', () => this.#find());
+    this.#search.addEventListener('keydown', (event) => {
+      if (event.key !== 'Escape' || this.#search.value === '') return;
+      this.#search.value = '';
+      this.#find();
+    });
+  }
+
+  /** The line of help tells of a key. */
+  #describe(path) {
+    const key = this.#keys.find((one) => one.path === keyOf(path));
+    if (!key || this.#help.dataset.path === path) return;
+    const needs = key.used_by && !(path in this.#values) && `needs ${key.used_by}`;
+    this.#help.dataset.path = path;
+    this.#help.replaceChildren(
       make('b', { textContent: path }),
       ` ${key.meaning}${key.unit ? ` [${key.unit}]` : ''}`,
-      make('small', {
-        textContent: [limits(key), key.used_by && !(path in values) && `needs ${key.used_by}`]
-          .filter(Boolean)
-          .join('; '),
-      }),
+      make('small', { textContent: [limits(key), needs].filter(Boolean).join('; ') }),
     );
-  }
-  for (const kind of ['focusin', 'pointerover']) {
-    element.addEventListener(kind, ({ target }) => {
-      const at = target.closest('.key');
-      if (at) describe(at.dataset.path);
-    });
   }
 
-  function section(name) {
-    if (sections.has(name)) return sections.get(name);
+  #section(name) {
+    const known = this.#sections.get(name);
+    if (known) return known;
     const number = /\.\d+$/.exec(name)?.[0] ?? '';
-    const fields = keys
-      .filter((key) => sectionOf(key.path) === name.slice(0, name.length - number.length) && !leave.includes(key.path))
-      .map((key) => field(key, number ? `${name}.${key.path.split('.').at(-1)}` : key.path, act));
-    for (const { element: e } of fields) {
-      for (const c of e.querySelectorAll('input, select')) c.setAttribute('aria-describedby', help.id);
+    const base = name.slice(0, name.length - number.length);
+    const fields = this.#keys
+      .filter(({ path }) => sectionOf(path) === base && !this.#leave.includes(path))
+      .map((key) => new Field(key, number ? `${name}.${key.path.split('.').at(-1)}` : key.path, this.#act));
+    for (const { element } of fields) {
+      for (const c of element.querySelectorAll('input, select')) c.setAttribute('aria-describedby', this.#help.id);
     }
-    const set = make('div');
-    const more = make('details', { className: 'more-keys' }, make('summary', { textContent: 'Without effect now' }));
-    const remove = make('button', { type: 'button', className: 'remove', textContent: `Take “${titleOf(name)}” out` });
-    const refused = make('p', { className: 'refused', hidden: true });
-    refused.setAttribute('role', 'alert');
-    remove.addEventListener('click', async () => {
-      refused.hidden = true;
-      await act.unset(name).catch((error) => Object.assign(refused, { textContent: error.message, hidden: false }));
-    });
-    const many = make('small', { className: 'many' });
-    const whole = make(
-      'details',
-      { className: 'keys-section' },
-      make('summary', {}, titleOf(name), many),
-      set,
-      more,
-      remove,
-      refused,
-    );
-    const made = { name, fields, set, more, remove, many, whole };
-    sections.set(name, made);
+    const made = new Section(name, fields, this.#act.unset);
+    this.#sections.set(name, made);
     return made;
   }
 
-  /** Puts children in an order, touching none that are in place: moving one would take its focus. */
-  function order(parent, children) {
-    children.forEach(
-      (child, i) => parent.children[i] !== child && parent.insertBefore(child, parent.children[i] ?? null),
-    );
-    while (parent.children.length > children.length) parent.lastElementChild.remove();
-  }
-
-  function show({ values: given, sections: now }) {
-    values = given;
-    const all = [...new Set(keys.map((key) => sectionOf(key.path)))].filter(Boolean);
-    const inUse = all.flatMap((name) =>
-      now.filter((one) => one === name || (one.startsWith(`${name}.`) && /^\d+$/.test(one.slice(name.length + 1)))),
-    );
-    for (const name of now) if (!inUse.includes(name) && name) inUse.push(name);
-    // Of numbered sections another may be added.
-    const others = all.flatMap((name) => {
-      const numbers = inUse
-        .filter((one) => one !== name && keyOf(`${one}.`) === `${name}.`)
-        .map((one) => Number(one.slice(name.length + 1)));
-      return inUse.includes(name) ? [] : numbers.length ? [`${name}.${Math.max(...numbers) + 1}`] : [name];
-    });
-    for (const name of [...inUse, ...others]) {
-      const { fields, set, more, remove, many } = section(name);
-      const isUsed = inUse.includes(name);
-      const effective = isUsed ? fields.filter((f) => values[f.path] !== undefined) : fields;
-      const idle = fields.filter((f) => !effective.includes(f));
-      order(set, effective.map((f) => f.element));
-      const list = [more.firstElementChild, ...idle.map((f) => f.element)];
-      order(more, list);
-      more.hidden = idle.length === 0;
-      for (const f of fields) f.show(values[f.path]);
-      const changed = fields.filter((f) => f.changed).length;
-      many.textContent = isUsed && changed ? ` ${changed} changed` : '';
-      remove.hidden = !isUsed || ['grid', 'network', 'surface', 'output'].includes(name) || name.startsWith('network.');
+  /** Shows a document. */
+  show({ values, sections }) {
+    this.#values = values;
+    const { used, unused } = sectionsOf(this.#keys.map((key) => key.path), sections);
+    for (const name of [...used, ...unused]) this.#section(name).show(values, used.includes(name));
+    order(this.#used, used.map((name) => this.#section(name).element));
+    order(this.#unused, unused.map((name) => this.#section(name).element));
+    this.#rest.hidden = unused.length === 0;
+    for (const name of [...this.#sections.keys()]) {
+      if (!used.includes(name) && !unused.includes(name)) this.#sections.delete(name);
     }
-    order(used, inUse.map((name) => sections.get(name).whole));
-    order(unused, others.map((name) => sections.get(name).whole));
-    rest.hidden = others.length === 0;
-    for (const name of [...sections.keys()]) if (!inUse.includes(name) && !others.includes(name)) sections.delete(name);
-    find();
+    this.#find();
   }
 
-  let open = null; // what was unfolded before something was sought
-  function find() {
-    const words = search.value.trim().toLowerCase().split(/\s+/).filter(Boolean);
-    const folds = [...element.querySelectorAll('details')];
-    if (words.length && !open) open = new Set(folds.filter((d) => d.open));
+  /** Shows what is sought; when nothing is any more, what was unfolded before. */
+  #find() {
+    const words = this.#search.value.trim().toLowerCase().split(/\s+/).filter(Boolean);
+    const folds = [...this.element.querySelectorAll('details')];
+    if (words.length && !this.#open) this.#open = new Set(folds.filter((d) => d.open));
     let found = 0;
-    for (const { fields, whole, more, remove } of sections.values()) {
-      let here = 0;
-      for (const { element: e, path, key } of fields) {
-        // Anywhere in the path, at the beginning of words of the meaning.
-        const name = `${path} ${path.replaceAll('_', ' ')}`.toLowerCase();
-        const meaning = ` ${key.meaning.toLowerCase().replace(/[^\p{L}\p{N}]+/gu, ' ')}`;
-        const hit = words.every((word) => name.includes(word) || meaning.includes(` ${word}`));
-        e.hidden = !hit;
-        here += hit;
-      }
-      whole.hidden = words.length > 0 && here === 0;
-      if (words.length) {
-        whole.open = here > 0;
-        more.open = [...more.querySelectorAll('.key')].some((e) => !e.hidden);
-      }
-      remove.classList.toggle('away', words.length > 0);
-      found += here;
-    }
-    if (words.length) rest.open = [...unused.children].some((e) => !e.hidden);
-    rest.classList.toggle('away', words.length > 0 && !rest.open);
-    nothing.hidden = found > 0;
-    if (!words.length && open) {
-      for (const d of folds) d.open = open.has(d);
-      open = null;
+    for (const section of this.#sections.values()) found += section.find(words);
+    if (words.length) this.#rest.open = this.#unused.querySelector(':scope > :not([hidden])') !== null;
+    this.#rest.classList.toggle('away', words.length > 0 && !this.#rest.open);
+    this.#nothing.hidden = found > 0;
+    if (!words.length && this.#open) {
+      for (const d of folds) d.open = this.#open.has(d);
+      this.#open = null;
     }
   }
-  search.addEventListener('input', find);
-  search.addEventListener('keydown', (event) => {
-    if (event.key !== 'Escape' || search.value === '') return;
-    search.value = '';
-    find();
-  });
-  return { element, show };
 }

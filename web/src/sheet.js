@@ -4,7 +4,7 @@
 import { Desk } from './desk.js';
 import { Cut, Join, Pin, Select } from './edits.js';
 import { round } from './hand.js';
-import { inspector } from './inspector.js';
+import { Inspector } from './inspector.js';
 import { Overlay } from './overlay.js';
 import { Pen } from './pens.js';
 
@@ -140,7 +140,7 @@ function drawingTools(desk, overlay) {
 export function openSheet({ view, tools }, { ask, revision, types }) {
   const desk = new Desk(view, ask, revision);
   const overlay = new Overlay(desk);
-  const beside = inspector(desk, types);
+  const beside = new Inspector(desk, types);
   const all = drawingTools(desk, overlay);
   for (const tool of all) tools.add(tool);
   const drawn = view.ondraw;
