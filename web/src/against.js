@@ -44,6 +44,7 @@ function compared({ rows, real }) {
   const metres = decimalsOf(rows.map((row) => row.rmse_m));
   return figures.map(({ key, name, unit, goal, decimals = metres, signs, given = [] }) => {
     const times = unit === '%' ? 100 : 1;
+    /** @type {Intl.NumberFormatOptions} */
     const digits = {
       minimumFractionDigits: decimals,
       maximumFractionDigits: decimals,
@@ -231,8 +232,8 @@ function scatter({ low, high, side, counts }, correlation) {
     const [x, y] = [(column) => (left + size * column).toFixed(1), (row) => (box.bottom - size * row).toFixed(1)];
     const path = (all) =>
       all
-        .map((i) => [i % side, Math.floor(i / side)])
-        .map(([column, row]) => `M${x(column)} ${y(row)}H${x(column + 1)}V${y(row + 1)}H${x(column)}Z`)
+        .map((i) => ({ column: i % side, row: Math.floor(i / side) }))
+        .map(({ column, row }) => `M${x(column)} ${y(row)}H${x(column + 1)}V${y(row + 1)}H${x(column)}Z`)
         .join('');
     const [[x1, y1], [x2, y2]] = [[low, low], [high, high]].map(place);
     field.replaceChildren(

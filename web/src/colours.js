@@ -98,6 +98,7 @@ export function riverStyle(order, highest) {
   };
 }
 
+/** @param {number[]} colour */
 export const css = ([r, g, b]) => `rgb(${Math.round(r)} ${Math.round(g)} ${Math.round(b)})`;
 export const ridgeColour = [120, 74, 40];
 export const markColour = [255, 120, 0];

@@ -66,7 +66,9 @@ class Tiles {
   #tiles = new Map();
 
   constructor(side, columns, rows) {
-    Object.assign(this, { side, columns, rows });
+    this.side = side;
+    this.columns = columns;
+    this.rows = rows;
   }
 
   /** What lies beside the grid, as masks and lakes of files may far, counts to the tiles at its edge. */
@@ -109,7 +111,11 @@ export class Drawing {
 
   constructor(message) {
     const { grid, kind, branching, revision, rivers, coasts, lakes, masks, pins, ridges } = message;
-    Object.assign(this, { message, grid, kind, branching, revision });
+    this.message = message;
+    this.grid = grid;
+    this.kind = kind;
+    this.branching = branching;
+    this.revision = revision;
     const ring = (line) => ({ line, outline: [...line, line[0], line[1]], closed: true });
     const coast = (line) => {
       const closed = line.length > 6 && line[0] === line.at(-2) && line[1] === line.at(-1);
@@ -158,7 +164,7 @@ export class Drawing {
    * The nearest place of an object that is accepted, within reach [cells]: {object, i: vertex after it, x, y, d}, or
    * null.
    */
-  nearest({ x, y }, reach, accept = () => true) {
+  nearest({ x, y }, reach, accept = (_object) => true) {
     let found = null;
     this.tiles.about(x - reach, y - reach, x + reach, y + reach, (object, i) => {
       if (!accept(object)) return;

@@ -16,9 +16,15 @@ class Pointing extends Tool {
     this.desk.quiet();
     this.#px = this.desk.pixel(event);
     this.point(at);
-    this.pressed?.(at);
+    this.pressed(at);
     return true;
   }
+
+  /** A gesture begins at a place. */
+  pressed(_at) {}
+
+  /** It ends there. moved: it went somewhere. */
+  released(_at, _moved) {}
 
   move(at) {
     this.point(at);

@@ -366,6 +366,8 @@ function halved(data, width, height, parts) {
 
 /** Land in a space where its longer side measures 2: x to the east, z to the south, y up (scaled by `lift`). */
 export class Ground {
+  #seen = null; // how much of the sky each place sees: skyView()
+
   /** sky: values along the longer side by which the sky's share is reckoned. */
   constructor(land, segments, linear, lakes, sea, sky) {
     this.segments = segments;
@@ -410,7 +412,9 @@ export class Ground {
   }
 
   #measure(land, lakes, sea) {
-    Object.assign(this, { land, lakes, sea });
+    this.land = land;
+    this.lakes = lakes;
+    this.sea = sea;
     const { width, height } = land.grid;
     this.unit = 2 / Math.max(width, height); // of space a cell
     this.halfX = (width * this.unit) / 2;
@@ -600,8 +604,8 @@ export class Ground {
     const { width, height } = land;
     const { east, south } = this.slope;
     // A draft has the sky of the land before it, which is nearly the same and costs nothing.
-    if (!land.level && !(land.draft && this.sky)) this.sky = skyView(land, lift, this.skyValues);
-    const sky = land.level ? null : this.sky;
+    if (!land.level && !(land.draft && this.#seen)) this.#seen = skyView(land, lift, this.skyValues);
+    const sky = land.level ? null : this.#seen;
     let at = { data: new Float32Array(4 * width * height), width, height };
     for (let r = 0, i = 0; r < height; ++r) {
       const v = sky ? Math.min(Math.max(((r + 0.5) * sky.height) / height - 0.5, 0), sky.height - 1) : 0;
@@ -695,11 +699,13 @@ export class Ground {
     u.withLines.value = groups.some(({ lines }) => lines.length) ? 1 : 0;
     if (!u.withLines.value) return;
     field.build(groups);
-    for (const [name, data, width, height, format] of [
+    /** @type {[string, Float32Array, number, number, any][]} */
+    const tables = [
       ['nearest', field.nearest, field.width, field.height, RedFormat],
       ['segments', field.segments, LineField.columns, field.rows, RGBAFormat],
       ['styles', field.styles, LineField.columns, field.rows, RGBAFormat],
-    ]) {
+    ];
+    for (const [name, data, width, height, format] of tables) {
       u[name].value.dispose();
       u[name].value = texture(data, width, height, format, FloatType, NearestFilter);
     }
@@ -817,6 +823,7 @@ export class Ground {
       to = Math.min(to, Math.max(a, b));
     }
     if (from > to) return null;
+    /** @type {(t: number) => [number, number]} */
     const place = (t) => [
       (origin.x + t * direction.x + this.halfX) / this.unit,
       (origin.z + t * direction.z + this.halfZ) / this.unit,

@@ -9,9 +9,29 @@ const arrows = { ArrowLeft: [-4, 0], ArrowRight: [4, 0], ArrowUp: [0, 4], ArrowD
 export class Tool {
   cursor = 'crosshair';
 
+  /** about: what tools.js says of a tool, {id, title, letter, icon, group, help: what to do with it}. */
   constructor(desk, overlay, about) {
-    Object.assign(this, { desk, overlay }, about);
+    this.desk = desk;
+    this.overlay = overlay;
+    this.id = about.id;
+    this.title = about.title;
+    this.letter = about.letter;
+    this.icon = about.icon;
+    this.group = about.group;
+    this.help = about.help;
   }
+
+  /** Ends a gesture that was begun. */
+  cancel() {}
+
+  /** Forgets what was begun. */
+  clear() {}
+
+  /** The cursor is at a place {x, y}. */
+  point(_at) {}
+
+  /** A key presses at a place. */
+  press(_at, _key) {}
 
   get view() {
     return this.desk.view;
@@ -25,8 +45,8 @@ export class Tool {
   }
 
   dropped() {
-    this.cancel?.();
-    this.clear?.();
+    this.cancel();
+    this.clear();
     Object.assign(this.desk, { cursor: null, hovered: null });
     this.desk.quiet();
     this.desk.hold(null);
@@ -37,7 +57,7 @@ export class Tool {
     const { desk } = this;
     if (event.target !== this.view.canvas) return false;
     const by = arrows[event.key]?.map((v) => v * (event.shiftKey ? 10 : 1));
-    if (by) this.point(desk.step(...by));
+    if (by) this.point(desk.step(by[0], by[1]));
     else if (event.key === ' ' || event.key === 'Enter') return this.#pressed(event);
     else return false;
     return true;

@@ -5,6 +5,10 @@ import { unpackHeights } from './unpack.js';
 
 export class Land {
   #numbers;
+  /** Whether it is coarse land of which all is to come. */
+  draft = false;
+  /** Of every slope [m/m], the one that nine in ten do not exceed, once it is known. @type {number | undefined} */
+  steepest;
 
   /** heights: as packed in the page, or float32 values [m] with NaN where there is none. */
   constructor(grid, about, heights, sea) {
@@ -31,7 +35,8 @@ export class Land {
     this.has = about.nodata > 0 ? new Uint8Array(about.width * about.height) : null;
     if (typeof heights === 'string') this.#unpack(heights);
     else this.#take(heights);
-    if (this.has && sea) this.z.forEach((_, i) => this.has[i] || (this.z[i] = sea.level));
+    const { has, z } = this;
+    if (has && sea) z.forEach((_, i) => has[i] || (z[i] = sea.level));
     else if (this.has) this.#fillHoles();
   }
 

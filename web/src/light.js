@@ -11,7 +11,7 @@ export function slopes(land) {
   for (let r = 0, i = 0; r < height; ++r) {
     const up = r > 0 ? width : 0;
     const down = r + 1 < height ? width : 0;
-    const tall = side * ((up > 0) + (down > 0) || 1);
+    const tall = side * ((up > 0 ? 1 : 0) + (down > 0 ? 1 : 0) || 1);
     for (let c = 0; c < width; ++c, ++i) {
       const left = c > 0 ? 1 : 0;
       const right = c + 1 < width ? 1 : 0;

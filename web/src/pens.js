@@ -20,6 +20,20 @@ export class Pen extends Tool {
   #refused = false;
   #warned = false;
 
+  /**
+   * about: what each tool has, and {kind: of the object, snaps: what its ends meet, closes: true, or 'maybe' where its
+   * ends are near, avoids: what it must not cross, what(line, desk): the verb of it, then(desk): it is drawn}.
+   */
+  constructor(desk, overlay, about) {
+    super(desk, overlay, about);
+    this.kind = about.kind;
+    this.snaps = about.snaps;
+    this.closes = about.closes;
+    this.avoids = about.avoids;
+    this.what = about.what;
+    this.then = about.then;
+  }
+
   // ── The line.
   clear() {
     this.line = [];

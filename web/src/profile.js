@@ -56,7 +56,7 @@ export function profiles(data, actions) {
   const choice = make('select', { id: 'stem' });
   let shown;
   let points = [];
-  let read = () => {};
+  let read = (_index) => {};
 
   function show(index) {
     shown = stems[index];
@@ -105,7 +105,7 @@ export function profiles(data, actions) {
       : '';
     place.replaceChildren(line.figure, list);
   }
-  if (!stems.length) return { element: null, hover: () => {} };
+  if (!stems.length) return { element: null, hover() {} };
   choice.append(...stems.map((stem, i) => {
     const length = stem.points[0][0];
     return make('option', {

@@ -5,6 +5,7 @@ import { between, chart, number } from './chart.js';
 import { fold, legend, make, rung, sign, symbol, table } from './elements.js';
 import { bars, strips } from './strips.js';
 
+/** @type {[string, RegExp][]} */
 const groups = [['slopes', /^slope_(?!area)/], ['rivers', /^(theta|chi|density|slope_area|straight|perched)/],
   ['forms and summits', /^(hypso|peaks|pits|valleys|hollows|level|prominen|isolation|form)/], ['texture', /./]];
 const judged = (f) => f.range && f.value !== null;

@@ -2,13 +2,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page of `thalweg export --for web`: MapLibre shows the tiles beside it, or those inside it where it is opened
 // from disk.
-import { addProtocol, AttributionControl, Map, NavigationControl, ScaleControl, setWorkerUrl } from 'maplibre-gl';
+import {
+  addProtocol,
+  AttributionControl,
+  LngLat,
+  Map,
+  NavigationControl,
+  ScaleControl,
+  setWorkerUrl,
+} from 'maplibre-gl';
 import worker from 'maplibre-worker';
 import 'maplibre-gl/dist/maplibre-gl.css';
 import './terrain.css';
 import { bytesOf } from './unpack.js';
 
 const at = (id) => document.getElementById(id);
+const inputAt = (id) => /** @type {HTMLInputElement} */ (at(id));
 const data = JSON.parse(at('data').textContent);
 const [west, south, east, north] = data.bounds;
 const tilt = 62;
@@ -32,6 +41,32 @@ async function riversOf() {
   return answer.json();
 }
 
+/**
+ * Rivers, the wider the deeper blue.
+ * @returns {import('maplibre-gl').LineLayerSpecification}
+ */
+function riverLayer() {
+  return {
+    id: 'rivers',
+    type: 'line',
+    source: 'rivers',
+    layout: { 'line-cap': 'round', 'line-join': 'round' },
+    paint: {
+      'line-color': ['interpolate', ['linear'], ['get', 'width'], 1.2, '#4a8fd0', 5.4, '#124f9e'],
+      'line-width': [
+        'interpolate',
+        ['exponential', 1.4],
+        ['zoom'],
+        data.min_zoom + 2,
+        ['*', 0.6, ['get', 'width']],
+        Math.max(data.min_zoom + 3, data.max_zoom + 1),
+        ['*', 1.6, ['get', 'width']],
+      ],
+    },
+  };
+}
+
+/** @returns {import('maplibre-gl').StyleSpecification} */
 function styleOf(rivers) {
   const address = tileAddress();
   const ending = data.tiles ? '' : '.png';
@@ -51,28 +86,7 @@ function styleOf(rivers) {
     },
     layers: [
       { id: 'colour', type: 'raster', source: 'colour', paint: { 'raster-fade-duration': 0 } },
-      ...(rivers
-        ? [
-            {
-              id: 'rivers',
-              type: 'line',
-              source: 'rivers',
-              layout: { 'line-cap': 'round', 'line-join': 'round' },
-              paint: {
-                'line-color': ['interpolate', ['linear'], ['get', 'width'], 1.2, '#4a8fd0', 5.4, '#124f9e'],
-                'line-width': [
-                  'interpolate',
-                  ['exponential', 1.4],
-                  ['zoom'],
-                  data.min_zoom + 2,
-                  ['*', 0.6, ['get', 'width']],
-                  Math.max(data.min_zoom + 3, data.max_zoom + 1),
-                  ['*', 1.6, ['get', 'width']],
-                ],
-              },
-            },
-          ]
-        : []),
+      ...(rivers ? [riverLayer()] : []),
     ],
     terrain: { source: 'heights', exaggeration: data.exaggeration },
   };
@@ -91,9 +105,9 @@ function addControls(map) {
   map.addControl(new NavigationControl({ visualizePitch: true }), 'top-right');
   map.addControl(new ScaleControl(), 'bottom-left');
   map.addControl(new AttributionControl({ compact: false, customAttribution: 'thalweg' }), 'bottom-right');
-  const slider = at('exaggeration');
-  slider.max = Math.max(5, data.exaggeration);
-  slider.value = data.exaggeration;
+  const slider = inputAt('exaggeration');
+  slider.max = String(Math.max(5, data.exaggeration));
+  slider.value = String(data.exaggeration);
   const say = () => {
     at('times').textContent = times(Number(slider.value));
   };
@@ -103,8 +117,10 @@ function addControls(map) {
   });
   say();
   at('label-rivers').hidden = !data.rivers;
-  at('show-rivers').addEventListener('change', ({ target }) =>
-    map.setLayoutProperty('rivers', 'visibility', target.checked ? 'visible' : 'none'));
+  const shows = inputAt('show-rivers');
+  shows.addEventListener('change', () =>
+    map.setLayoutProperty('rivers', 'visibility', shows.checked ? 'visible' : 'none'),
+  );
   at('reset').addEventListener('click', () => map.easeTo({ ...firstView(map), duration: 800 }));
 }
 
@@ -141,7 +157,7 @@ async function show() {
     terrainSkirtLength: 'none',
     transformCameraUpdate: ({ center }) => ({
       // the terrain stays in sight
-      center: new center.constructor(
+      center: new LngLat(
         Math.min(Math.max(center.lng, west), east),
         Math.min(Math.max(center.lat, south), north),
       ),

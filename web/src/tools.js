@@ -47,7 +47,8 @@ export class Tools {
     parent.addEventListener('contextmenu', (event) => this.held && event.preventDefault());
     window.addEventListener('keydown', (event) => {
       if (event.code === 'Space' && event.target === view.canvas) this.#space = true;
-      if (typing(event) || event.target.closest?.('dialog') || event.ctrlKey || event.metaKey || event.altKey) return;
+      const inDialog = /** @type {Element} */ (event.target).closest?.('dialog');
+      if (typing(event) || inDialog || event.ctrlKey || event.metaKey || event.altKey) return;
       const tool = Array.from(this.#tools.values()).find(
         ({ letter, button }) => letter === event.key.toLowerCase() && !button.disabled && !button.hidden,
       );
@@ -75,12 +76,14 @@ export class Tools {
     button.setAttribute('aria-label', title);
     button.setAttribute('aria-pressed', 'false');
     button.addEventListener('click', () => this.hold(this.held === tool ? null : id));
-    button.dataset.group = group;
-    const after = Array.from(this.bar.children).find((other) => Number(other.dataset.group) > group);
-    this.bar.insertBefore(button, after ?? null);
-    for (const [i, one] of Array.from(this.bar.children).entries()) {
-      one.classList.toggle('begins', i > 0 && one.dataset.group !== this.bar.children[i - 1].dataset.group);
-    }
+    button.dataset.group = String(group);
+    const buttons = /** @type {HTMLElement[]} */ (Array.from(this.bar.children));
+    const after = buttons.findIndex((other) => Number(other.dataset.group) > group);
+    buttons.splice(after < 0 ? buttons.length : after, 0, button);
+    this.bar.insertBefore(button, buttons[buttons.indexOf(button) + 1] ?? null);
+    buttons.forEach((one, i) =>
+      one.classList.toggle('begins', i > 0 && one.dataset.group !== buttons[i - 1].dataset.group),
+    );
     this.bar.hidden = false;
     this.#tools.set(id, tool);
     tool.button = button;
@@ -103,7 +106,6 @@ export class Tools {
     this.held = next;
     this.view.canvas.style.cursor = next?.cursor ?? '';
     next?.taken?.();
-    this.onhold?.(next?.id ?? null);
     this.draw();
   }
 

@@ -8,10 +8,22 @@ import { distanceInside } from './light.js';
 export class View2d {
   mode = '2d';
   onmap = true;
+  /** Only the view in 3-D has one. @type {any} */
+  ground = null;
+  /** What is shaded and painted. @type {HTMLCanvasElement | undefined} */
+  picture;
+  /** The view has been drawn, turned by an angle. @type {((turn: number) => void) | undefined} */
+  ondraw;
+  /** Gives the boxes that labels keep out of. @type {(() => object[]) | undefined} */
+  keepOut;
+  /** The graphics device was lost. @type {(() => void) | undefined} */
+  onlost;
+  /** It is there again. @type {(() => void) | undefined} */
+  onfound;
   names = [];
   places = [];
 
-  constructor(parent, land, rivers, options = {}) {
+  constructor(parent, land, rivers, options) {
     this.parent = parent;
     this.canvas = document.createElement('canvas');
     parent.append(this.canvas);
@@ -36,7 +48,10 @@ export class View2d {
   }
 
   #hold(land, rivers, { lakes, sea }) {
-    Object.assign(this, { land, rivers, lakes, part: null });
+    this.land = land;
+    this.rivers = rivers;
+    this.lakes = lakes;
+    this.part = null;
     const { width, height } = land;
     this.shores = [];
     if (sea && land.has) {
@@ -80,9 +95,9 @@ export class View2d {
       held.set(event.pointerId, [event.offsetX, event.offsetY]);
       this.redraw();
     });
-    for (const kind of ['pointerup', 'pointercancel']) {
-      this.canvas.addEventListener(kind, (event) => held.delete(event.pointerId));
-    }
+    const letGo = ({ pointerId }) => held.delete(pointerId);
+    this.canvas.addEventListener('pointerup', letGo);
+    this.canvas.addEventListener('pointercancel', letGo);
     this.canvas.addEventListener('wheel', (event) => {
       event.preventDefault();
       const [dx, dy] = [event.offsetX - this.parent.clientWidth / 2, event.offsetY - this.parent.clientHeight / 2];
@@ -339,6 +354,7 @@ export class View2d {
   }
 
   #write() {
+    /** @type {object[]} */
     const labels = this.names.map(({ x, y, text, kind }) => ({ text, kind, ...this.project(x, y) }));
     if (this.contour > 0) {
       for (const { x, y, z, dx, dy } of this.places) {

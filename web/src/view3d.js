@@ -23,10 +23,11 @@ ColorManagement.enabled = false;
 
 /** What the machine draws with, on the canvas of the view to be, or null when there is no WebGL 2. */
 export function probe(antialias) {
-  const make = (smooth) =>
-    document
-      .createElement('canvas')
-      .getContext('webgl2', { antialias: smooth, preserveDrawingBuffer: true, alpha: false });
+  const make = (smooth) => {
+    const canvas = document.createElement('canvas');
+    const context = canvas.getContext('webgl2', { antialias: smooth, preserveDrawingBuffer: true, alpha: false });
+    return /** @type {WebGL2RenderingContext | null} */ (context);
+  };
   const gl = make(false); // in software smoothing costs more than all else
   if (!gl) return null;
   const info = gl.getExtension('WEBGL_debug_renderer_info');
@@ -50,6 +51,18 @@ const skies = {
 export class View3d {
   mode = 'webgl2';
   onmap = false;
+  /** Of the sun [°]. @type {number | undefined} */
+  azimuth;
+  /** @type {number | undefined} */
+  altitude;
+  /** The view has been drawn, turned by an angle. @type {((turn: number) => void) | undefined} */
+  ondraw;
+  /** Gives the boxes that labels keep out of. @type {(() => object[]) | undefined} */
+  keepOut;
+  /** The graphics device was lost. @type {(() => void) | undefined} */
+  onlost;
+  /** It is there again. @type {(() => void) | undefined} */
+  onfound;
   marks = []; // places [cells] shown by a ring
   #hurried = false;
   #patience;
@@ -77,6 +90,7 @@ export class View3d {
     this.scene.add(this.ground.group, this.ground.sky, this.ground.ocean);
     this.perspective = new PerspectiveCamera(32, 1, 0.02, 90);
     this.flat = new OrthographicCamera(-1, 1, 1, -1, 0.02, 60);
+    /** @type {any} */
     this.controls = new OrbitControls(this.perspective, this.canvas);
     this.controls.maxPolarAngle = 0.495 * Math.PI;
     this.controls.minDistance = 0.05;
@@ -305,8 +319,8 @@ export class View3d {
   theme(name) {
     const { horizon, zenith, dark } = skies[name];
     const { air } = this.ground;
-    air.horizon.value.set(...horizon.map((c) => c / 255));
-    air.zenith.value.set(...zenith.map((c) => c / 255));
+    air.horizon.value.fromArray(horizon.map((c) => c / 255));
+    air.zenith.value.fromArray(zenith.map((c) => c / 255));
     air.dark.value = dark;
     this.labels.dark = dark === 1;
     this.renderer.setClearColor((horizon[0] << 16) | (horizon[1] << 8) | horizon[2]);
