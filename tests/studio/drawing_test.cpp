@@ -53,7 +53,7 @@ DrawnLine line_of(std::vector<Vec2> const& cells) {
     return line;
 }
 
-Drawn after(Drawing drawing, DrawStep const& step) {
+DrawResult after(Drawing drawing, DrawStep const& step) {
     return drawn(std::move(drawing), step);
 }
 
@@ -185,7 +185,7 @@ TEST(Drawing, TheBorderIsNeverCrossedByRounding) {
 }
 
 TEST(Drawing, WhatLiesBeyondTheGridIsLeftOutAndTold) {
-    Drawn const river = after(sheet(), DrawRiver{line_of({{40, 30}, {70, 30}, {110, 30}})});
+    DrawResult const river = after(sheet(), DrawRiver{line_of({{40, 30}, {70, 30}, {110, 30}})});
     EXPECT_EQ(river.drawing.rivers.front().line.back().x, grid.east());
     ASSERT_EQ(river.said.size(), 1U);
     EXPECT_EQ(river.said.front(), "0.3 km beyond the grid were left out");
@@ -193,7 +193,7 @@ TEST(Drawing, WhatLiesBeyondTheGridIsLeftOutAndTold) {
 
 TEST(Drawing, ARiverRunsToWhereItMeetsOtherWater) {
     Drawing const trunk = with_river(sheet(), {{40, 5}, {40, 59.5}});
-    Drawn const against = after(trunk, DrawRiver{line_of({{41, 30}, {70, 10}})});
+    DrawResult const against = after(trunk, DrawRiver{line_of({{41, 30}, {70, 10}})});
     EXPECT_EQ(against.drawing.rivers.back().line.front(), at(70, 10));
     EXPECT_FALSE(against.said.empty());
     EXPECT_EQ(with_river(sheet(), {{40, 5}, {40, 50}}).rivers.front().line.front(), at(40, 5)) << "as drawn";
@@ -254,7 +254,7 @@ TEST(Drawing, MovesWhatMeetsTogether) {
 
 TEST(Drawing, CutsAndJoins) {
     Drawing const rivers = two_rivers();
-    Drawn const cut = after(rivers, CutRiver{0, at(40, 15)});
+    DrawResult const cut = after(rivers, CutRiver{0, at(40, 15)});
     ASSERT_EQ(cut.drawing.rivers.size(), 3U);
     EXPECT_EQ(cut.drawing.rivers[0].line.front(), at(40, 15));
     EXPECT_EQ(cut.drawing.rivers[2].line.back(), at(40, 11)) << "four cells above";
@@ -273,7 +273,7 @@ TEST(Drawing, CutsAndJoins) {
 }
 
 TEST(Drawing, ReversesARiverAndAllBelow) {
-    Drawn const turned = after(two_rivers(), ReverseRiver{1});
+    DrawResult const turned = after(two_rivers(), ReverseRiver{1});
     ASSERT_EQ(turned.drawing.rivers.size(), 3U);
     EXPECT_EQ(turned.drawing.rivers[1].line.back(), at(10, 10)) << "the outlet of all";
     EXPECT_EQ(turned.drawing.rivers[2].line.front(), at(40, 60));
@@ -299,11 +299,11 @@ TEST(Drawing, CoastsAreClosedOrReachTheBorderAndCutRivers) {
     EXPECT_EQ(island.coasts.front().front(), island.coasts.front().back());
     EXPECT_TRUE(is_land(island, at(40, 30)));
     EXPECT_FALSE(is_land(island, at(5, 5)));
-    Drawn const river = after(island, DrawRiver{line_of({{40, 30}, {40, 59}})});
+    DrawResult const river = after(island, DrawRiver{line_of({{40, 30}, {40, 59}})});
     EXPECT_NEAR(river.drawing.rivers.front().line.back().y, at(40, 55).y, 5.0) << "at the coast";
     EXPECT_FALSE(river.said.empty());
     EXPECT_TRUE(has(refusal(island, DrawRiver{line_of({{2, 2}, {30, 2}})}), "in the sea"));
-    Drawn const sea = after(river.drawing, SwapSides{0});
+    DrawResult const sea = after(river.drawing, SwapSides{0});
     EXPECT_TRUE(sea.drawing.rivers.empty());
     EXPECT_FALSE(sea.said.empty());
     EXPECT_FALSE(is_land(sea.drawing, at(40, 30)));
@@ -328,7 +328,7 @@ TEST(Drawing, ACoastTakesNothingFromRiversOnLand) {
     for (double turn = 0.0; turn < 6.2; turn += 0.2) {
         ring.push_back({40 + 25 * std::cos(turn), 30 + 25 * std::sin(turn)});
     }
-    Drawn const island = after(arcs, DrawCoast{line_of(ring)});
+    DrawResult const island = after(arcs, DrawCoast{line_of(ring)});
     EXPECT_EQ(island.drawing.rivers, arcs.rivers);
     EXPECT_TRUE(island.said.empty());
     // A source may be dragged to the coast, wherever rounding puts it.
@@ -344,7 +344,7 @@ TEST(Drawing, SmallOrFarStrokesAreRefused) {
 }
 
 TEST(Drawing, LakesHaveLevels) {
-    Drawn const lake = after(two_rivers(), DrawLake{line_of({{35, 40}, {45, 40}, {45, 50}, {35, 50}}), 120.0});
+    DrawResult const lake = after(two_rivers(), DrawLake{line_of({{35, 40}, {45, 40}, {45, 50}, {35, 50}}), 120.0});
     EXPECT_TRUE(lake.said.empty()) << "a river runs through it";
     EXPECT_EQ(lake.drawing.lakes.front().level_m, 120.0);
     EXPECT_EQ(after(lake.drawing, SetLevel{0, std::nullopt}).drawing.lakes.front().level_m, std::nullopt);
@@ -354,7 +354,7 @@ TEST(Drawing, LakesHaveLevels) {
 }
 
 TEST(Drawing, PinsStandOnLandBesideRivers) {
-    Drawn const one = after(two_rivers(), DrawPin{at(60.2, 20.7), 340.0});
+    DrawResult const one = after(two_rivers(), DrawPin{at(60.2, 20.7), 340.0});
     EXPECT_EQ(one.drawing.pins, (std::vector<DrawnPin>{{at(60.2, 20.7), 340.0}}));
     EXPECT_EQ(one.name, "a pin at 340 m");
     EXPECT_EQ(one.drawing.rivers, two_rivers().rivers);
@@ -378,7 +378,7 @@ TEST(Drawing, PinsStandOnLandBesideRivers) {
     EXPECT_TRUE(after(one.drawing, Clear{}).drawing.pins.empty());
 
     EXPECT_TRUE(after(one.drawing, DrawRiver{line_of({{70, 10}, {50, 40}})}).said.empty());
-    Drawn const over = after(one.drawing, DrawRiver{line_of({{70.2, 10.7}, {50.2, 30.7}})});
+    DrawResult const over = after(one.drawing, DrawRiver{line_of({{70.2, 10.7}, {50.2, 30.7}})});
     ASSERT_EQ(over.said.size(), 1U);
     EXPECT_EQ(over.said.front(), "1 pin lies in the river now: the river's height decides there");
     Drawing const coast = after(one.drawing, DrawCoast{line_of({{2, 2}, {78, 2}})}).drawing;
@@ -386,13 +386,13 @@ TEST(Drawing, PinsStandOnLandBesideRivers) {
 }
 
 TEST(Drawing, RidgesEndShortOfRivers) {
-    Drawn const free = after(two_rivers(), DrawRidge{line_of({{50, 10}, {70, 30}}), 500.0, std::nullopt});
+    DrawResult const free = after(two_rivers(), DrawRidge{line_of({{50, 10}, {70, 30}}), 500.0, std::nullopt});
     ASSERT_EQ(free.drawing.ridges.size(), 1U);
     EXPECT_TRUE(free.said.empty());
     EXPECT_EQ(free.drawing.ridges[0].line, line_of({{50, 10}, {70, 30}}));
     EXPECT_EQ(free.drawing.ridges[0].heights_m, (std::vector<std::optional<double>>{500.0, std::nullopt}));
 
-    Drawn const cut = after(two_rivers(), DrawRidge{line_of({{70, 20}, {39, 20}})});
+    DrawResult const cut = after(two_rivers(), DrawRidge{line_of({{70, 20}, {39, 20}})});
     ASSERT_EQ(cut.drawing.ridges.size(), 1U);
     EXPECT_NEAR(cut.drawing.ridges[0].line.back().x, at(41.75, 20).x, 0.3 * grid.cell_m);
     EXPECT_EQ(cut.drawing.ridges[0].line.front(), at(70, 20));
@@ -408,7 +408,7 @@ TEST(Drawing, RidgesEndShortOfRivers) {
         has(refusal(free.drawing, MoveVertex{{Part::Kind::ridge, 0}, 0, at(20, 40)}), "cross or touch a river"));
 
     Drawing const coast = after(two_rivers(), DrawCoast{line_of({{2, 2}, {78, 2}})}).drawing;
-    Drawn const land = after(coast, DrawRidge{line_of({{60, 20}, {60, 0.5}})});
+    DrawResult const land = after(coast, DrawRidge{line_of({{60, 20}, {60, 0.5}})});
     EXPECT_TRUE(test::has(land.said.at(0), "the ridge ends at the coast"));
     EXPECT_TRUE(has(refusal(coast, DrawRidge{line_of({{50, 1}, {70, 1}})}), "in the sea: ridges run on land"));
 }

@@ -40,7 +40,7 @@ Parts parts_of(std::string const& message) {
     return parts;
 }
 
-Shown shown(Raster<float> const& dem) {
+ShownHeights shown(Raster<float> const& dem) {
     return {dem.grid(), true, *report::live_heights(dem, dem.grid()), report::Sea{3.0, true}};
 }
 
@@ -123,18 +123,18 @@ TEST(HeightMessages, HoldTheTilesThatChanged) {
 
     Raster<float> second = first;
     second[Cell{99, 69}] = std::numeric_limits<float>::quiet_NaN();
-    Shown const before = shown(first);
+    ShownHeights const before = shown(first);
     Parts const changed = parts_of(heights_message(job, shown(second), &before));
     EXPECT_EQ(changed.head["tiles"], json({3}));
     EXPECT_EQ(changed.head["nodata"], 1);
     ASSERT_EQ(changed.values.size(), 36U * 6U);
     EXPECT_TRUE(std::isnan(changed.values.back()));
 
-    Shown const holed = shown(second);
+    ShownHeights const holed = shown(second);
     EXPECT_EQ(parts_of(heights_message(job, shown(second), &holed)).head["tiles"], json::array())
         << "holes are the same as before";
 
-    Shown elsewhere = before;
+    ShownHeights elsewhere = before;
     elsewhere.grid.west += 1.0;
     EXPECT_EQ(parts_of(heights_message(job, shown(second), &elsewhere)).head["tiles"].size(), 4U);
 }

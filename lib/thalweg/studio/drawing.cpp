@@ -72,7 +72,7 @@ void merge_ridge_repeats(DrawnRidge& ridge) {
 }
 
 /// Cleans and checks a part after a change between two vertices. Rivers follow a coast.
-void finish_change(Drawn& result, Part const& part, std::size_t first, std::size_t last) {
+void finish_change(DrawResult& result, Part const& part, std::size_t first, std::size_t last) {
     Drawing& drawing = result.drawing;
     double const cell_m = drawing.grid.cell_m;
     DrawnLine& line = line_of_part(drawing, part, 0);
@@ -107,7 +107,7 @@ void finish_change(Drawn& result, Part const& part, std::size_t first, std::size
 
 /// Moves a vertex of a coast, a lake, a mask or a ridge, and others within reach. An end of a coast stays on the
 /// border.
-void move_shape_vertex(Drawn& result, MoveVertex const& step, DrawnLine& line) {
+void move_shape_vertex(DrawResult& result, MoveVertex const& step, DrawnLine& line) {
     Grid const& grid = result.drawing.grid;
     bool const is_coast = step.of.kind == Part::Kind::coast;
     bool const is_closed = is_ring(step.of.kind, line);
@@ -168,7 +168,7 @@ std::string count_of(std::size_t count, char const* one, char const* more) {
     return fmt::format("{} {}", count, count == 1 ? one : more);
 }
 
-void apply_step(Drawn& result, MoveVertex const& step) {
+void apply_step(DrawResult& result, MoveVertex const& step) {
     if (step.of.kind == Part::Kind::pin) {
         move_pin(result, step);
         return;
@@ -182,7 +182,7 @@ void apply_step(Drawn& result, MoveVertex const& step) {
     }
 }
 
-void apply_step(Drawn& result, InsertVertex const& step) {
+void apply_step(DrawResult& result, InsertVertex const& step) {
     require_vertices(step.of);
     DrawnLine& line = line_of_part(result.drawing, step.of, 0);
     result.name = fmt::format("a vertex of {}", name_of_part(step.of));
@@ -198,7 +198,7 @@ void apply_step(Drawn& result, InsertVertex const& step) {
     finish_change(result, step.of, step.vertex, step.vertex);
 }
 
-void apply_step(Drawn& result, RemoveVertex const& step) {
+void apply_step(DrawResult& result, RemoveVertex const& step) {
     require_vertices(step.of);
     Drawing& drawing = result.drawing;
     DrawnLine& line = line_of_part(drawing, step.of, step.vertex);
@@ -223,7 +223,7 @@ void apply_step(Drawn& result, RemoveVertex const& step) {
     finish_change(result, step.of, vertex, vertex);
 }
 
-void apply_step(Drawn& result, Erase const& step) {
+void apply_step(DrawResult& result, Erase const& step) {
     Drawing& drawing = result.drawing;
     require_part(drawing, step.of);
     result.name = fmt::format("{} erased", name_of_part(step.of));
@@ -243,15 +243,15 @@ void apply_step(Drawn& result, Erase const& step) {
     }
 }
 
-void apply_step(Drawn& result, Clear const&) {
+void apply_step(DrawResult& result, Clear const&) {
     result.name = "an empty sheet";
     Drawing empty;
     empty.grid = std::move(result.drawing.grid);
     result.drawing = std::move(empty);
 }
 
-Drawn drawn(Drawing drawing, DrawStep const& step) {
-    Drawn result{std::move(drawing), {}, {}};
+DrawResult drawn(Drawing drawing, DrawStep const& step) {
+    DrawResult result{std::move(drawing), {}, {}};
     std::visit([&](auto const& one) { apply_step(result, one); }, step);
     require_no_circle(result.drawing);
     if (result.drawing.has_side_streams) { // there, a river that goes on where another ends is one with it

@@ -182,7 +182,7 @@ public:
 };
 
 /// A drawing after a step.
-struct Drawn {
+struct DrawResult {
     Drawing drawing;
     std::string name;              ///< of the step, for people
     std::vector<std::string> said; ///< what became of it beside what was asked
@@ -195,7 +195,7 @@ struct Drawn {
 /// \throws NotDrawn where rivers would cross, come too near, flow in a circle or out of another one, where a ridge
 /// would cross a river, for pins in rivers, in the sea and in one cell, and for numbers of what is not there
 /// \throws BadParameter for a type or lambda that is none, and heights beyond [-12000, 30000] m
-Drawn drawn(Drawing drawing, DrawStep const& step);
+DrawResult drawn(Drawing drawing, DrawStep const& step);
 
 /// \return the rivers that flow into one, directly or through others; ascending, without itself
 std::vector<std::size_t> rivers_into(Drawing const& drawing, std::size_t river);

@@ -532,7 +532,7 @@ void write_drawing(Drawing const& drawing, std::string const& path, Run const& r
     io::write_tables({table_of_rivers(drawing)}, drawing.grid.crs, path, run);
 }
 
-Edit edit_between(Document const& document, Drawing const& before, Drawn const& after, PutInput const& put) {
+Edit edit_between(Document const& document, Drawing const& before, DrawResult const& after, PutInput const& put) {
     Drawing const& now = after.drawing;
     Edit edit{after.name, {}};
     if (now.rivers != before.rivers || now.coasts != before.coasts || now.has_side_streams != before.has_side_streams) {

@@ -46,7 +46,7 @@ using PutInput = std::function<TakeInput(std::string const& key, std::string con
 /// \param before what read_drawing() or drawing_of() gives for the document
 /// \param put called for each file that changed
 /// \return steps; none where nothing changed
-Edit edit_between(Document const& document, Drawing const& before, Drawn const& after, PutInput const& put);
+Edit edit_between(Document const& document, Drawing const& before, DrawResult const& after, PutInput const& put);
 
 /// The edit that makes an empty sheet of a document: nothing is drawn on it.
 Edit empty_sheet(Document const& document, Grid const& grid, PutInput const& put);

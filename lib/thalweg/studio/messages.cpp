@@ -440,7 +440,7 @@ std::string drawing_message(Drawing const& drawing, std::int64_t revision, bool 
                     {"ridges", std::move(ridges)}});
 }
 
-std::string written_message(std::int64_t id, std::int64_t revision, Written const& written) {
+std::string written_message(std::int64_t id, std::int64_t revision, WrittenFolder const& written) {
     return text_of({{"type", "reply"},
                     {"id", id},
                     {"ok", true},
@@ -450,7 +450,7 @@ std::string written_message(std::int64_t id, std::int64_t revision, Written cons
                     {"url", written.url}});
 }
 
-std::string heights_message(Job const& job, Shown const& shown, Shown const* before) {
+std::string heights_message(Job const& job, ShownHeights const& shown, ShownHeights const* before) {
     Raster<float> const& values = shown.heights.values;
     bool const differs =
         before == nullptr || before->grid != shown.grid || before->heights.values.grid() != values.grid();

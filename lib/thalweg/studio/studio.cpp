@@ -104,7 +104,7 @@ private:
         }
         constexpr std::string_view files = "files/";
         constexpr std::int64_t largest = std::int64_t{1} << 31;
-        Written const written = [this] { // reading may take long
+        WrittenFolder const written = [this] { // reading may take long
             std::scoped_lock const lock(guard_);
             return written_;
         }();
@@ -132,7 +132,7 @@ private:
         if (!cluster_.empty()) {
             server_.send_text(client, cluster_);
         }
-        for (std::optional<Shown> const* shown : {&coarse_, &full_}) {
+        for (std::optional<ShownHeights> const* shown : {&coarse_, &full_}) {
             if (*shown) {
                 server_.send_binary(client, heights_message(job_of_shown_, **shown, nullptr));
             }
@@ -210,7 +210,7 @@ private:
                                     std::function<void(std::string const& path)> const& write) {
             return folder_.put(key, name, write);
         };
-        Drawn after = drawn(before, step);
+        DrawResult after = drawn(before, step);
         bool const was_drawn = is_drawn(document.recipe);
         std::string const mask_before = mask_of(document.recipe);
         Edit const edit = std::holds_alternative<Clear>(step) ? empty_sheet(document, before.grid, put)
@@ -363,7 +363,7 @@ private:
 
     // On the thread that writes.
 
-    Written written_now(std::int64_t job, std::string const& file, std::stop_token const& stop) {
+    WrittenFolder written_now(std::int64_t job, std::string const& file, std::stop_token const& stop) {
         auto const made = engine_.wait(job, stop);
         refuse_if<BadInput>(made == nullptr,
                             "studio.export: there is no terrain of this recipe to write: it failed, or "
@@ -377,7 +377,7 @@ private:
         Run run;
         run.stop = stop;
         run.threads = params_.threads;
-        Written written;
+        WrittenFolder written;
         written.files = report::write_terrain(*made, folder.string(), io::Existing::replace, run);
         written.folder = fs::absolute(folder).lexically_normal().string();
         refuse_if<BadInput>(!is_whole && std::ranges::find(written.files, file) == written.files.end(),
@@ -457,8 +457,8 @@ private:
         if (!heights) {
             return;
         }
-        Shown shown{given.grid, given.is_finished, std::move(*heights), given.sea};
-        std::optional<Shown>& before = given.is_finished ? full_ : coarse_;
+        ShownHeights shown{given.grid, given.is_finished, std::move(*heights), given.sea};
+        std::optional<ShownHeights>& before = given.is_finished ? full_ : coarse_;
         std::scoped_lock const lock(guard_);
         if (job.number <= last_discarded_job_) {
             return;
@@ -514,10 +514,10 @@ private:
     std::string scene_;
     std::string findings_; ///< of the last job
     std::string state_;
-    std::optional<Shown> coarse_;
-    std::optional<Shown> full_;
+    std::optional<ShownHeights> coarse_;
+    std::optional<ShownHeights> full_;
     Job job_of_shown_;
-    Written written_;
+    WrittenFolder written_;
     std::optional<ShownRivers> shown_rivers_;
     std::string drawing_words_; ///< "": not known yet
     std::string document_toml_;

@@ -20,7 +20,7 @@ void require_level(std::optional<double> level_m) {
 
 } // namespace
 
-void apply_step(Drawn& result, DrawLake const& step) {
+void apply_step(DrawResult& result, DrawLake const& step) {
     result.name = "a lake";
     Drawing& drawing = result.drawing;
     DrawnLine ring = ring_from_stroke(drawing.grid, step.points);
@@ -35,14 +35,14 @@ void apply_step(Drawn& result, DrawLake const& step) {
     drawing.lakes.push_back({{std::move(ring)}, step.level_m});
 }
 
-void apply_step(Drawn& result, SetLevel const& step) {
+void apply_step(DrawResult& result, SetLevel const& step) {
     line_of_part(result.drawing, {Part::Kind::lake, step.lake}, 0);
     require_level(step.level_m);
     result.drawing.lakes[step.lake].level_m = step.level_m;
     result.name = step.level_m ? fmt::format("lake level {} m", *step.level_m) : "lake level by the terrain";
 }
 
-void apply_step(Drawn& result, DrawMask const& step) {
+void apply_step(DrawResult& result, DrawMask const& step) {
     result.name = "a mask";
     result.drawing.masks.push_back(ring_from_stroke(result.drawing.grid, step.points));
 }

@@ -250,7 +250,7 @@ bool lies_in_sea(Drawing const& drawing, Vec2 p) {
     return lies_in_sea(CoastIndex(drawing.coasts).nearest(p), drawing.grid.cell_m);
 }
 
-DrawnLine line_on_land(Drawn& result, DrawnLine const& points, char const* what) {
+DrawnLine line_on_land(DrawResult& result, DrawnLine const& points, char const* what) {
     Drawing const& drawing = result.drawing;
     DrawnLine const within = longest_part_in_grid(drawing.grid, points);
     double const beyond_m = length_of(points) - length_of(within);
@@ -288,7 +288,7 @@ void require_apart_from_coasts(Drawing const& drawing, DrawnLine const& line) {
     }
 }
 
-void cut_rivers_at_coasts(Drawn& result) {
+void cut_rivers_at_coasts(DrawResult& result) {
     Drawing& drawing = result.drawing;
     std::vector<DrawnRiver> on_land;
     double lost_m = 0.0;
@@ -318,7 +318,7 @@ void cut_rivers_at_coasts(Drawn& result) {
     drawing.rivers = std::move(on_land);
 }
 
-void apply_step(Drawn& result, DrawCoast const& step) {
+void apply_step(DrawResult& result, DrawCoast const& step) {
     result.name = "a coast";
     Drawing& drawing = result.drawing;
     Grid const& grid = drawing.grid;
@@ -352,7 +352,7 @@ void apply_step(Drawn& result, DrawCoast const& step) {
     cut_rivers_at_coasts(result);
 }
 
-void apply_step(Drawn& result, SwapSides const& step) {
+void apply_step(DrawResult& result, SwapSides const& step) {
     result.name = "land and sea swapped";
     std::ranges::reverse(line_of_part(result.drawing, {Part::Kind::coast, step.coast}, 0));
     cut_rivers_at_coasts(result);

@@ -52,7 +52,7 @@ void set_end_heights(DrawnRidge& ridge, std::optional<double> from_m, std::optio
 
 /// The longest part of a ridge that keeps away from rivers, with a message on what is left out.
 /// \throws NotDrawn where that part is short
-DrawnLine cut_ridge_at_rivers(Drawn& result, DrawnLine line) {
+DrawnLine cut_ridge_at_rivers(DrawResult& result, DrawnLine line) {
     constexpr double most_lost = 1.0 / 3.0;
     constexpr double straight_cells = 0.05;
     double const cell_m = result.drawing.grid.cell_m;
@@ -82,32 +82,32 @@ DrawnLine cut_ridge_at_rivers(Drawn& result, DrawnLine line) {
 
 } // namespace
 
-void apply_step(Drawn& result, DrawPin const& step) {
+void apply_step(DrawResult& result, DrawPin const& step) {
     result.name = fmt::format("a pin at {} m", step.height_m);
     require_height(step.height_m, "the height of a pin");
     result.drawing.pins.push_back({require_pin_place(result.drawing, step.at, no_number), step.height_m});
 }
 
-void apply_step(Drawn& result, SetHeight const& step) {
+void apply_step(DrawResult& result, SetHeight const& step) {
     result.name = fmt::format("pin height {} m", step.height_m);
     require_height(step.height_m, "the height of a pin");
     require_pin(result.drawing, step.pin).height_m = step.height_m;
 }
 
-void move_pin(Drawn& result, MoveVertex const& step) {
+void move_pin(DrawResult& result, MoveVertex const& step) {
     result.name = "a pin moved";
     DrawnPin& pin = require_pin(result.drawing, step.of.number);
     pin.at = require_pin_place(result.drawing, step.to, step.of.number);
 }
 
-void apply_step(Drawn& result, DrawRidge const& step) {
+void apply_step(DrawResult& result, DrawRidge const& step) {
     result.name = "a ridge";
     DrawnRidge ridge{cut_ridge_at_rivers(result, line_on_land(result, step.points, "ridge")), {}};
     set_end_heights(ridge, step.from_m, step.to_m);
     result.drawing.ridges.push_back(std::move(ridge));
 }
 
-void apply_step(Drawn& result, SetRidgeHeights const& step) {
+void apply_step(DrawResult& result, SetRidgeHeights const& step) {
     line_of_part(result.drawing, {Part::Kind::ridge, step.ridge}, 0);
     set_end_heights(result.drawing.ridges[step.ridge], step.from_m, step.to_m);
     result.name = step.from_m || step.to_m ? "heights of a ridge" : "a ridge with the terrain's heights";

@@ -97,7 +97,7 @@ void extend_river(Drawing& drawing, std::size_t river, Vec2 to, std::size_t into
 }
 
 /// Extends a free end of a river to what it meets, or to a place.
-void join_river_end(Drawn& result, std::size_t river, bool at_source, RiverEnd const& end) {
+void join_river_end(DrawResult& result, std::size_t river, bool at_source, RiverEnd const& end) {
     Drawing& drawing = result.drawing;
     bool const is_joined = end.meets == RiverEnd::Meets::river;
     result.name = is_joined ? "rivers joined" : "a river carried on";
@@ -195,7 +195,7 @@ void drag_river_vertex(Drawing& drawing, std::size_t river, std::size_t vertex, 
 
 } // namespace
 
-void apply_step(Drawn& result, DrawRiver const& step) {
+void apply_step(DrawResult& result, DrawRiver const& step) {
     result.name = "a river";
     require_type(step.type, step.lambda);
     DrawnLine line = line_on_land(result, step.points, "river");
@@ -236,7 +236,7 @@ void apply_step(Drawn& result, DrawRiver const& step) {
     }
 }
 
-void move_river_vertex(Drawn& result, MoveVertex const& step) {
+void move_river_vertex(DrawResult& result, MoveVertex const& step) {
     Drawing& drawing = result.drawing;
     std::size_t const river = step.of.number;
     DrawnLine const& line = drawing.rivers[river].line;
@@ -254,7 +254,7 @@ void move_river_vertex(Drawn& result, MoveVertex const& step) {
     drag_river_vertex(drawing, river, step.vertex, to, step.reach_m);
 }
 
-void apply_step(Drawn& result, CutRiver const& step) {
+void apply_step(DrawResult& result, CutRiver const& step) {
     constexpr double gap_cells = 4.0; // between the two parts
     result.name = "a river cut";
     Drawing& drawing = result.drawing;
@@ -275,7 +275,7 @@ void apply_step(Drawn& result, CutRiver const& step) {
     drawing.rivers.push_back(std::move(above));
 }
 
-void apply_step(Drawn& result, JoinRiver const& step) {
+void apply_step(DrawResult& result, JoinRiver const& step) {
     Drawing const& drawing = result.drawing;
     std::size_t const river = require_river(drawing, step.river);
     DrawnLine const& line = drawing.rivers[river].line;
@@ -285,7 +285,7 @@ void apply_step(Drawn& result, JoinRiver const& step) {
     join_river_end(result, river, step.at_source, find_river_end(drawing, clip_to_grid(drawing.grid, step.at), river));
 }
 
-void apply_step(Drawn& result, ReverseRiver const& step) {
+void apply_step(DrawResult& result, ReverseRiver const& step) {
     result.name = "a river reversed";
     std::vector<DrawnRiver>& rivers = result.drawing.rivers;
     // The whole way down is known before the first river is turned.
@@ -313,7 +313,7 @@ void apply_step(Drawn& result, ReverseRiver const& step) {
     }
 }
 
-void erase_river(Drawn& result, std::size_t river, bool alone) {
+void erase_river(DrawResult& result, std::size_t river, bool alone) {
     std::vector<std::size_t> gone = rivers_into(result.drawing, river);
     if (!gone.empty()) {
         result.said.push_back(
@@ -330,7 +330,7 @@ void erase_river(Drawn& result, std::size_t river, bool alone) {
     }
 }
 
-void apply_step(Drawn& result, SetType const& step) {
+void apply_step(DrawResult& result, SetType const& step) {
     result.name = fmt::format("river type {}", step.type.empty() ? "none" : step.type);
     require_type(step.type, 0);
     for (std::size_t const river : step.rivers) {
@@ -338,7 +338,7 @@ void apply_step(Drawn& result, SetType const& step) {
     }
 }
 
-void apply_step(Drawn& result, SetLambda const& step) {
+void apply_step(DrawResult& result, SetLambda const& step) {
     result.name = fmt::format("lambda = {}", step.lambda);
     require_type("", step.lambda);
     for (std::size_t const river : step.rivers) {
@@ -346,7 +346,7 @@ void apply_step(Drawn& result, SetLambda const& step) {
     }
 }
 
-void apply_step(Drawn& result, SetSideStreams const& step) {
+void apply_step(DrawResult& result, SetSideStreams const& step) {
     result.name = step.on ? "with side streams" : "without side streams";
     refuse_step_if(step.on && !result.drawing.coasts.empty(),
                    "studio.drawing: rivers with side streams know no coast: erase the coasts, or draw the side "

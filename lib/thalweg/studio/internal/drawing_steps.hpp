@@ -13,34 +13,34 @@ namespace thalweg::studio {
 
 // Each applies a step to the drawing of a result, and sets the name and the messages of the result. They throw as
 // drawn() does, and then leave the result half changed.
-void apply_step(Drawn& result, DrawRiver const& step);
-void apply_step(Drawn& result, MoveVertex const& step);
-void apply_step(Drawn& result, InsertVertex const& step);
-void apply_step(Drawn& result, RemoveVertex const& step);
-void apply_step(Drawn& result, CutRiver const& step);
-void apply_step(Drawn& result, JoinRiver const& step);
-void apply_step(Drawn& result, ReverseRiver const& step);
-void apply_step(Drawn& result, Erase const& step);
-void apply_step(Drawn& result, SetType const& step);
-void apply_step(Drawn& result, SetLambda const& step);
-void apply_step(Drawn& result, SetSideStreams const& step);
-void apply_step(Drawn& result, DrawCoast const& step);
-void apply_step(Drawn& result, SwapSides const& step);
-void apply_step(Drawn& result, DrawLake const& step);
-void apply_step(Drawn& result, SetLevel const& step);
-void apply_step(Drawn& result, DrawMask const& step);
-void apply_step(Drawn& result, DrawPin const& step);
-void apply_step(Drawn& result, SetHeight const& step);
-void apply_step(Drawn& result, DrawRidge const& step);
-void apply_step(Drawn& result, SetRidgeHeights const& step);
-void apply_step(Drawn& result, Clear const& step);
+void apply_step(DrawResult& result, DrawRiver const& step);
+void apply_step(DrawResult& result, MoveVertex const& step);
+void apply_step(DrawResult& result, InsertVertex const& step);
+void apply_step(DrawResult& result, RemoveVertex const& step);
+void apply_step(DrawResult& result, CutRiver const& step);
+void apply_step(DrawResult& result, JoinRiver const& step);
+void apply_step(DrawResult& result, ReverseRiver const& step);
+void apply_step(DrawResult& result, Erase const& step);
+void apply_step(DrawResult& result, SetType const& step);
+void apply_step(DrawResult& result, SetLambda const& step);
+void apply_step(DrawResult& result, SetSideStreams const& step);
+void apply_step(DrawResult& result, DrawCoast const& step);
+void apply_step(DrawResult& result, SwapSides const& step);
+void apply_step(DrawResult& result, DrawLake const& step);
+void apply_step(DrawResult& result, SetLevel const& step);
+void apply_step(DrawResult& result, DrawMask const& step);
+void apply_step(DrawResult& result, DrawPin const& step);
+void apply_step(DrawResult& result, SetHeight const& step);
+void apply_step(DrawResult& result, DrawRidge const& step);
+void apply_step(DrawResult& result, SetRidgeHeights const& step);
+void apply_step(DrawResult& result, Clear const& step);
 
 /// Moves a vertex of a river. A free end joins what it comes near.
-void move_river_vertex(Drawn& result, MoveVertex const& step);
-void move_pin(Drawn& result, MoveVertex const& step);
+void move_river_vertex(DrawResult& result, MoveVertex const& step);
+void move_pin(DrawResult& result, MoveVertex const& step);
 
 /// Removes a river, and those that flow into it unless it goes alone.
-void erase_river(Drawn& result, std::size_t river, bool alone);
+void erase_river(DrawResult& result, std::size_t river, bool alone);
 
 /// \throws BadParameter beyond [-12000, 30000] m
 void require_height(double height_m, char const* what);

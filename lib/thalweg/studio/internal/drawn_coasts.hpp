@@ -53,12 +53,12 @@ bool lies_in_sea(Drawing const& drawing, Vec2 p);
 
 /// The longest part of a stroke in the grid and on land, with messages on what is left out.
 /// \param what "river"
-DrawnLine line_on_land(Drawn& result, DrawnLine const& points, char const* what);
+DrawnLine line_on_land(DrawResult& result, DrawnLine const& points, char const* what);
 
 /// \throws NotDrawn where a line crosses or touches a coast
 void require_apart_from_coasts(Drawing const& drawing, DrawnLine const& line);
 
 /// Removes from every river what lies in the sea, with a message.
-void cut_rivers_at_coasts(Drawn& result);
+void cut_rivers_at_coasts(DrawResult& result);
 
 } // namespace thalweg::studio

@@ -67,15 +67,15 @@ std::string drawing_message(Drawing const& drawing, std::int64_t revision, bool 
 Vec2 in_cells(Grid const& grid, Vec2 at);
 
 /// What was written on demand.
-struct Written {
+struct WrittenFolder {
     std::string folder;
     std::vector<std::string> files;
     std::string url; ///< of the one file asked for, relative to the page; ""
 };
-std::string written_message(std::int64_t id, std::int64_t revision, Written const& written);
+std::string written_message(std::int64_t id, std::int64_t revision, WrittenFolder const& written);
 
 /// Heights that a page shows.
-struct Shown {
+struct ShownHeights {
     Grid grid; ///< of the terrain
     bool is_finished = false;
     report::LiveHeights heights;
@@ -84,6 +84,6 @@ struct Shown {
 
 /// Heights as a binary message.
 /// \param before what the page has of that kind, on the same grid: tiles that are equal are left out; null: nothing
-std::string heights_message(Job const& job, Shown const& shown, Shown const* before);
+std::string heights_message(Job const& job, ShownHeights const& shown, ShownHeights const* before);
 
 } // namespace thalweg::studio
