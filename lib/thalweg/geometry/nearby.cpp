@@ -5,10 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <tuple>
 #include <utility>
 
+#define BOOST_ALLOW_DEPRECATED_HEADERS // rtree.hpp of Boost 1.74 includes one
 #include <CGAL/box_intersection_d.h>
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <boost/iterator/function_output_iterator.hpp>
 
 namespace thalweg::geometry {
 
@@ -78,6 +84,34 @@ std::int64_t PointGrid::slot(double along, std::int64_t count) const {
 
 CellIndex PointGrid::cell(Vec2 p) const {
     return slot(p.y - low_.y, height_) * width_ + slot(p.x - low_.x, width_);
+}
+
+using TreeBox = boost::geometry::model::box<boost::geometry::model::d2::point_xy<double>>;
+
+struct SegmentIndex::Tree {
+    boost::geometry::index::rtree<std::pair<TreeBox, std::size_t>, boost::geometry::index::linear<16>> boxes;
+};
+
+SegmentIndex::SegmentIndex(std::vector<std::pair<Vec2, Vec2>> const& segments) {
+    std::vector<std::pair<TreeBox, std::size_t>> boxes;
+    for (auto const& [a, b] : segments) {
+        TreeBox const box{{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
+        boxes.emplace_back(box, boxes.size());
+    }
+    tree_ = std::make_shared<Tree const>(Tree{{boxes.begin(), boxes.end()}});
+}
+
+std::vector<std::size_t> SegmentIndex::near(Vec2 a, Vec2 b, double margin_m) const {
+    // Rounding of a place far from the origin must not lose a segment.
+    double const wide_m = margin_m + 1e-9 * (std::fabs(a.x) + std::fabs(a.y) + std::fabs(b.x) + std::fabs(b.y));
+    TreeBox const around{{std::min(a.x, b.x) - wide_m, std::min(a.y, b.y) - wide_m},
+                         {std::max(a.x, b.x) + wide_m, std::max(a.y, b.y) + wide_m}};
+    std::vector<std::size_t> numbers;
+    tree_->boxes.query(boost::geometry::index::intersects(around),
+                       boost::make_function_output_iterator(
+                           [&](std::pair<TreeBox, std::size_t> const& found) { numbers.push_back(found.second); }));
+    std::ranges::sort(numbers);
+    return numbers;
 }
 
 Foot foot_on(Vec2 a, Vec2 b, Vec2 p) {

@@ -4,6 +4,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include <thalweg/core/raster.hpp>
@@ -66,6 +68,23 @@ struct Foot {
     Vec2 at;
 };
 Foot foot_on(Vec2 a, Vec2 b, Vec2 p);
+
+/// An index of segments that stay where they are, for many searches.
+class SegmentIndex {
+public:
+    /// \param segments ends [m], finite; they may be points
+    explicit SegmentIndex(std::vector<std::pair<Vec2, Vec2>> const& segments);
+
+    /// Finds segments close to one.
+    /// \param a,b [m] its ends
+    /// \param margin_m [m] >= 0
+    /// \return the numbers of all segments within the margin, and of some others, ascending
+    std::vector<std::size_t> near(Vec2 a, Vec2 b, double margin_m) const;
+
+private:
+    struct Tree;
+    std::shared_ptr<Tree const> tree_;
+};
 
 /// Tests three successive vertices of a line for a spike.
 /// \param before,tip,after positions [m]

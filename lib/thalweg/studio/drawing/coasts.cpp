@@ -197,8 +197,13 @@ CoastIndex::CoastIndex(std::vector<DrawnLine> const& coasts) : coasts_(coasts) {
     constexpr std::size_t together = 16;
     for (std::size_t c = 0; c < coasts.size(); ++c) {
         for (std::size_t i = 0; i + 1 < coasts[c].size(); i += together) {
-            std::size_t const end = std::min(i + together, coasts[c].size() - 1);
-            stretches_.push_back({c, i, end, BoundingBox(std::span(coasts[c]).subspan(i, end + 1 - i))});
+            Stretch stretch{c, i, std::min(i + together, coasts[c].size() - 1), coasts[c][i], coasts[c][i]};
+            for (std::size_t k = i; k <= stretch.end; ++k) {
+                Vec2 const p = coasts[c][k];
+                stretch.low = {std::min(stretch.low.x, p.x), std::min(stretch.low.y, p.y)};
+                stretch.high = {std::max(stretch.high.x, p.x), std::max(stretch.high.y, p.y)};
+            }
+            stretches_.push_back(stretch);
         }
     }
 }
@@ -210,8 +215,8 @@ NearestCoast CoastIndex::nearest(Vec2 p) {
     NearestCoast nearest;
     double aside = 0.0; // of the nearest segment: the distance of the place from its straight line
     for (Stretch const& stretch : stretches_) {
-        Vec2 const beside{std::max({stretch.box.low.x - p.x, p.x - stretch.box.high.x, 0.0}),
-                          std::max({stretch.box.low.y - p.y, p.y - stretch.box.high.y, 0.0})};
+        Vec2 const beside{std::max({stretch.low.x - p.x, p.x - stretch.high.x, 0.0}),
+                          std::max({stretch.low.y - p.y, p.y - stretch.high.y, 0.0})};
         for (std::size_t i = stretch.begin; dot(beside, beside) <= most_m * most_m && i < stretch.end; ++i) {
             Vec2 const a = coasts_[stretch.coast][i];
             Vec2 const b = coasts_[stretch.coast][i + 1];
@@ -275,10 +280,10 @@ DrawnLine line_on_land(DrawResult& result, DrawnLine const& points, char const* 
 
 void require_apart_from_coasts(Drawing const& drawing, DrawnLine const& line) {
     double const near_m = touching_cells * drawing.grid.cell_m;
-    SegmentSquares const squares = SegmentSquares::of_line(line, drawing.grid.cell_m);
+    geometry::SegmentIndex const index = index_segments(line);
     for (DrawnLine const& coast : drawing.coasts) {
         for (std::size_t i = 0; i + 1 < coast.size(); ++i) {
-            for (std::size_t const k : squares.near(coast[i], coast[i + 1], near_m)) {
+            for (std::size_t const k : index.near(coast[i], coast[i + 1], near_m)) {
                 refuse_step_if(segments_cross(coast[i], coast[i + 1], line[k], line[k + 1]) ||
                                    distance_to_segment(coast[i], coast[i + 1], line[k]) < near_m ||
                                    distance_to_segment(line[k], line[k + 1], coast[i]) < near_m,

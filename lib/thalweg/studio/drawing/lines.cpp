@@ -143,6 +143,22 @@ void snap_end(DrawnLine& line, Vec2 at, double cell_m) {
     line.back() = at;
 }
 
+geometry::SegmentIndex index_segments(DrawnLine const& line) {
+    std::vector<std::pair<Vec2, Vec2>> segments;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        segments.emplace_back(line[i], line[i + 1]);
+    }
+    return geometry::SegmentIndex(segments);
+}
+
+geometry::SegmentIndex index_places(DrawnLine const& places) {
+    std::vector<std::pair<Vec2, Vec2>> segments;
+    for (Vec2 const p : places) {
+        segments.emplace_back(p, p);
+    }
+    return geometry::SegmentIndex(segments);
+}
+
 bool segments_cross(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
     double const ca = cross(c, d, a);
     double const cb = cross(c, d, b);
@@ -163,9 +179,9 @@ void require_no_loop(DrawnLine const& line, bool is_closed, double cell_m) {
                distance_to_segment(line[i], line[i + 1], line[k + 1]) < near_m ||
                distance_to_segment(line[k], line[k + 1], line[i]) < near_m;
     };
-    SegmentSquares const squares = SegmentSquares::of_line(line, near_m);
+    geometry::SegmentIndex const index = index_segments(line);
     for (std::size_t k = 1; k < segments; ++k) {
-        for (std::size_t const i : squares.near(line[k], line[k + 1], near_m)) {
+        for (std::size_t const i : index.near(line[k], line[k + 1], near_m)) {
             refuse_step_if(i < k && meet(i, k), "studio.drawing: the line crosses itself here", line[k]);
         }
     }

@@ -37,16 +37,11 @@ double distance_to_nearest(DrawnLine const& places, Vec2 p) {
 }
 
 /// Where two lines cross, the first place along one.
-/// \param squares of one
-/// \param box around one
-std::optional<Vec2> first_crossing(DrawnLine const& one, SegmentSquares const& squares, BoundingBox const& box,
-                                   DrawnLine const& other) {
+/// \param index of the segments of one
+std::optional<Vec2> first_crossing(DrawnLine const& one, geometry::SegmentIndex const& index, DrawnLine const& other) {
     std::pair<std::size_t, std::size_t> first{no_number, no_number};
     for (std::size_t k = 0; k + 1 < other.size(); ++k) {
-        if (box.excludes(other[k], other[k + 1], 0.0)) {
-            continue;
-        }
-        for (std::size_t const i : squares.near(other[k], other[k + 1], 0.0)) {
+        for (std::size_t const i : index.near(other[k], other[k + 1], 0.0)) {
             if (std::pair(i, k) < first && segments_cross(one[i], one[i + 1], other[k], other[k + 1])) {
                 first = {i, k};
             }
@@ -62,23 +57,20 @@ std::optional<Vec2> first_crossing(DrawnLine const& one, SegmentSquares const& s
 }
 
 /// \param changed part of a river
-/// \param places along it
-void require_no_crossing(Drawing const& drawing, std::size_t river, DrawnLine const& changed,
-                         PlaceIndex const& places) {
-    SegmentSquares const squares = SegmentSquares::of_line(changed, drawing.grid.cell_m);
+void require_no_crossing(Drawing const& drawing, std::size_t river, DrawnLine const& changed) {
+    geometry::SegmentIndex const index = index_segments(changed);
     for (std::size_t r = 0; r < drawing.rivers.size(); ++r) {
         if (r == river) {
             continue;
         }
-        if (auto const at = first_crossing(changed, squares, places.box, drawing.rivers[r].line)) {
+        if (auto const at = first_crossing(changed, index, drawing.rivers[r].line)) {
             throw NotDrawn("studio.drawing: the river would cross another one here; let it end there instead", at);
         }
     }
 }
 
-/// \param places along a changed part of a river, with their index
-void require_distance(Drawing const& drawing, std::size_t river, DrawnLine const& places, PlaceIndex const& index,
-                      double clear_m) {
+/// \param index of places along a changed part of a river
+void require_distance(Drawing const& drawing, std::size_t river, PlaceIndex const& index) {
     constexpr double widening = 0.2; // rivers part by more than this share of the way from where they meet
     for (std::size_t r = 0; r < drawing.rivers.size(); ++r) {
         if (r == river) {
@@ -87,13 +79,13 @@ void require_distance(Drawing const& drawing, std::size_t river, DrawnLine const
         DrawnLine const& other = drawing.rivers[r].line;
         std::optional<DrawnLine> joints;
         index.visit_near(other, [&](std::size_t place, double distance_m) {
-            Vec2 const p = places[place];
+            Vec2 const p = index.places[place];
             joints = joints ? joints : shared_vertices(drawing.rivers[river].line, other);
             double const along_m = distance_to_nearest(*joints, p);
-            if (distance_m < std::min(clear_m, widening * along_m) && along_m >= drawing.grid.cell_m) {
+            if (distance_m < std::min(index.near_m, widening * along_m) && along_m >= drawing.grid.cell_m) {
                 throw NotDrawn(fmt::format("studio.drawing: it comes too near to another river here: keep {} cells "
                                            "apart, or let it end there",
-                                           clear_m / drawing.grid.cell_m),
+                                           index.near_m / drawing.grid.cell_m),
                                p);
             }
         });
@@ -229,9 +221,8 @@ void require_clear(Drawing const& drawing, std::size_t river, std::size_t first,
                        "erase the ridge first",
                        at);
     }
-    PlaceIndex const index(places, clear_cells * cell_m);
-    require_no_crossing(drawing, river, changed, index);
-    require_distance(drawing, river, places, index, clear_cells * cell_m);
+    require_no_crossing(drawing, river, changed);
+    require_distance(drawing, river, {places, clear_cells * cell_m});
 }
 
 void require_no_circle(Drawing const& drawing) {

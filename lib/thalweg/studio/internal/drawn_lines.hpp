@@ -6,13 +6,10 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
-#include <span>
-#include <utility>
 #include <vector>
 
 #include <thalweg/geometry/nearby.hpp>
 #include <thalweg/studio/drawing.hpp>
-#include <thalweg/studio/internal/segment_squares.hpp>
 
 // The geometry of drawn lines, without regard to what they stand for.
 namespace thalweg::studio {
@@ -78,6 +75,12 @@ inline double distance_to_segment(Vec2 a, Vec2 b, Vec2 p) {
     return distance(geometry::foot_on(a, b, p).at, p);
 }
 
+/// An index of the segments of a line.
+geometry::SegmentIndex index_segments(DrawnLine const& line);
+
+/// An index of places, as segments of no length.
+geometry::SegmentIndex index_places(DrawnLine const& places);
+
 /// Whether two segments cross between their ends.
 bool segments_cross(Vec2 a, Vec2 b, Vec2 c, Vec2 d);
 
@@ -88,46 +91,17 @@ void require_no_loop(DrawnLine const& line, bool is_closed, double cell_m);
 /// \throws NotDrawn for a small area
 void require_area(DrawnLine const& line, double cell_m);
 
-/// The box around places.
-struct BoundingBox {
-    Vec2 low{infinite, infinite};
-    Vec2 high{-infinite, -infinite};
-
-    explicit BoundingBox(std::span<Vec2 const> places) {
-        for (Vec2 const p : places) {
-            low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-            high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-        }
-    }
-
-    /// Whether a segment lies outside the box and a margin around it.
-    bool excludes(Vec2 a, Vec2 b, double margin_m) const {
-        return std::max(a.x, b.x) < low.x - margin_m || std::min(a.x, b.x) > high.x + margin_m ||
-               std::max(a.y, b.y) < low.y - margin_m || std::min(a.y, b.y) > high.y + margin_m;
-    }
-};
-
-/// Places in squares, to find those near lines. The places must outlive it.
+/// Places, to find those near lines. The places must outlive it.
 struct PlaceIndex {
     DrawnLine const& places;
-    double near_m; ///< [m] > 0
-    BoundingBox box{places};
-    SegmentSquares squares{2.0 * near_m};
-
-    PlaceIndex(DrawnLine const& indexed, double distance_m) : places(indexed), near_m(distance_m) {
-        for (std::size_t i = 0; i < places.size(); ++i) {
-            squares.add(i, places[i], places[i]);
-        }
-    }
+    double near_m; ///< [m]
+    geometry::SegmentIndex index = index_places(places);
 
     /// Calls visit(number of the place, distance in m) for each segment of a line and each place nearer to it than
     /// near_m.
     template <class Visit> void visit_near(DrawnLine const& line, Visit const& visit) const {
         for (std::size_t k = 0; k + 1 < line.size(); ++k) {
-            if (box.excludes(line[k], line[k + 1], near_m)) {
-                continue;
-            }
-            for (std::size_t const i : squares.near(line[k], line[k + 1], near_m)) {
+            for (std::size_t const i : index.near(line[k], line[k + 1], near_m)) {
                 double const distance_m = distance_to_segment(line[k], line[k + 1], places[i]);
                 if (distance_m < near_m) {
                     visit(i, distance_m);
@@ -140,7 +114,7 @@ struct PlaceIndex {
 /// Which places are nearer than near_m to rivers or ridges.
 template <class Lines> std::vector<bool> find_near_lines(DrawnLine const& places, Lines const& lines, double near_m) {
     std::vector<bool> is_near(places.size());
-    PlaceIndex const index(places, near_m);
+    PlaceIndex const index{places, near_m};
     for (auto const& one : lines) {
         index.visit_near(one.line, [&](std::size_t place, double /*distance_m*/) { is_near[place] = true; });
     }
