@@ -72,6 +72,10 @@ TEST(Condition, OfNothingHoldsForEveryRecipe) {
     EXPECT_TRUE(Condition()(Recipe{}));
     EXPECT_EQ(Condition().text(), "");
     EXPECT_EQ(Condition().lacks(Recipe{}), "");
+    EXPECT_EQ((Condition() && with_rivers).text(), "[network]");
+    EXPECT_EQ((with_rivers && Condition()).text(), "[network]");
+    EXPECT_TRUE((Condition() || with_rivers)(Recipe{}));
+    EXPECT_EQ((with_rivers || Condition()).text(), "");
 }
 
 TEST(Condition, SaysItselfWithBracketsWhereTheyAreNeeded) {
@@ -116,6 +120,10 @@ TEST(Condition, SaysWhatARecipeLacksAndWhatItHasInstead) {
     EXPECT_EQ(both.lacks(recipe), "");
     EXPECT_EQ(ask::is(&NetworkRecipe::fill_space, {true}).lacks(recipe),
               "network.fill_space = true (here it is false)");
+    recipe.detail.emplace().midpoint.stencil = fractal::Stencil::exact;
+    EXPECT_EQ(
+        ask::is(&fractal::MidpointParams::stencil, {fractal::Stencil::four, fractal::Stencil::twelve}).lacks(recipe),
+        R"(detail.stencil = 4 or 12 (here it is "exact"))");
     EXPECT_EQ(both.told_as("a TIN").text(), "a TIN");
     EXPECT_EQ(with_points.told_as("points of your own").lacks(recipe), "points of your own");
 }

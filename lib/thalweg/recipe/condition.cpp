@@ -227,6 +227,9 @@ Condition Condition::ask_section(std::function<bool(Recipe const&)> has_section)
 }
 
 Condition Condition::join(bool all, Condition const& a, Condition const& b) {
+    if (a.node_ == nullptr || b.node_ == nullptr) { // one holds for every recipe
+        return !all ? Condition() : a.node_ == nullptr ? b : a;
+    }
     Node joined{.kind = all ? Node::Kind::all : Node::Kind::any};
     for (Condition const& part : {a, b}) {
         if (part.node_->kind == joined.kind) {

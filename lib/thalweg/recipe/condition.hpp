@@ -35,6 +35,7 @@ public:
 
     friend Condition operator&&(Condition const& a, Condition const& b);
     friend Condition operator||(Condition const& a, Condition const& b);
+    /// \pre a does not hold for every recipe, and was not told_as() other words, which say nothing of its opposite
     friend Condition operator!(Condition const& a);
 
     /// The field of a key; nothing where a recipe has not its section.
