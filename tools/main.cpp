@@ -26,6 +26,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/memory.hpp>
 #include <thalweg/core/run/messages.hpp>
+#include <thalweg/core/run/peak_memory.hpp>
 #include <thalweg/core/run/stage_log.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/report/report.hpp>
@@ -367,6 +368,7 @@ int main(int argc, char** argv) {
     std::set_terminate(end_without_handler);
     std::signal(SIGABRT, handle_abort);
     handle_faults();
+    return_large_blocks();
     try {
         return exit_code_after_output(run(argc, argv));
     } catch (...) {

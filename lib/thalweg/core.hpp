@@ -27,6 +27,7 @@
 #include <thalweg/core/run/memory.hpp>
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/peak_memory.hpp>
 #include <thalweg/core/run/result_cache.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/run/stage_log.hpp>

@@ -108,6 +108,8 @@ TEST(MakeFolder, WritesWhatWriteTerrainWrites) {
         for (char const* const stage : {"fill", "relief", "write_dem", "write_map", "write_page", "write_network"}) {
             EXPECT_GE(report["timings_s"].at(stage).get<double>(), 0.0);
             EXPECT_GE(report["cpu_s"].at(stage).get<double>(), 0.0);
+            EXPECT_GT(report["peak_mb"].at(stage).get<double>(), 0.0);
+            EXPECT_LE(report["peak_mb"].at(stage).get<double>(), 1.01 * report["peak_rss_mb"].get<double>());
         }
     }
 }

@@ -269,10 +269,10 @@ double metres_per_unit(make::MakeResult const& t) {
 }
 
 /// Times of stages, by their names.
-ordered_json timings_object(Timings const& timings, double StageTime::*seconds) {
+ordered_json by_stage(Timings const& timings, double StageTime::*quantity) {
     ordered_json out = ordered_json::object();
     for (StageTime const& time : timings) {
-        out[time.stage] = time.*seconds;
+        out[time.stage] = time.*quantity;
     }
     return out;
 }
@@ -487,8 +487,9 @@ std::string write_report(make::MakeResult const& t, std::vector<std::string> con
     append(timings, writing);
     ordered_json report{{"version", version()},
                         {"recipe", recipe_object(t.recipe)},
-                        {"timings_s", timings_object(timings, &StageTime::wall_s)},
-                        {"cpu_s", timings_object(timings, &StageTime::cpu_s)},
+                        {"timings_s", by_stage(timings, &StageTime::wall_s)},
+                        {"cpu_s", by_stage(timings, &StageTime::cpu_s)},
+                        {"peak_mb", by_stage(timings, &StageTime::peak_mb)},
                         {"peak_rss_mb", static_cast<double>(peak_memory_bytes()) / 1e6}};
     add_rivers(t, report);
     add_dem(t, report);

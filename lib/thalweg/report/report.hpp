@@ -19,8 +19,8 @@
 namespace thalweg::report {
 
 /// \internal
-/// Formats report.json of a terrain: version, recipe, timings_s, cpu_s, peak_rss_mb, network, dem, checks, findings,
-/// repairs, files.
+/// Formats report.json of a terrain: version, recipe, timings_s, cpu_s, peak_mb, peak_rss_mb, network, dem, checks,
+/// findings, repairs, files.
 /// \param made a terrain
 /// \param files names of the files written
 /// \param writing times of writing them

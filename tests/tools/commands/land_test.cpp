@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Land from numbers and from points, as the command line makes it.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -29,6 +30,17 @@ TEST(Land, EverySampleIsMadeAgainWithAnyNumberOfThreads) {
         EXPECT_TRUE(fs::exists(place / "out/report.html"));
         expect_run(place, "replay out --threads 2", 0);
     }
+}
+
+TEST(Land, TheReportTellsWhichStageTookTheMemory) {
+    Workplace const place;
+    auto const report =
+        expect_run(place, "make --set grid.width=768 --set grid.height=768 --only dem -o out -q --json", 0).json();
+    double most_mb = 0.0;
+    for (auto const& [stage, seconds] : report["timings_s"].items()) {
+        most_mb = std::max(most_mb, report["peak_mb"].at(stage).get<double>());
+    }
+    EXPECT_NEAR(most_mb, report["peak_rss_mb"].get<double>(), 0.05 * most_mb) << "what is seen is the program's peak";
 }
 
 TEST(Land, ADemIsTheTerrain) {

@@ -10,6 +10,8 @@
 #include <sys/mman.h>
 #include <sys/resource.h>
 
+#include <thalweg/core/run/peak_memory.hpp>
+
 namespace thalweg {
 namespace {
 
@@ -61,6 +63,7 @@ void* allocate_large_pages(std::size_t bytes) {
 }
 
 void free_large_pages(void* memory) noexcept {
+    note_memory_now();
     std::free(memory);
 }
 

@@ -20,10 +20,12 @@
 
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/peak_memory.hpp>
 
 namespace thalweg {
 
 void Run::check() const {
+    note_memory();
     if (stop.stop_requested()) {
         throw Cancelled("interrupted");
     }

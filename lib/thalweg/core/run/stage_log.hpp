@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <thalweg/core/finding.hpp>
+#include <thalweg/core/run/peak_memory.hpp>
 #include <thalweg/core/run/run.hpp>
 
 namespace thalweg {
@@ -17,23 +18,25 @@ namespace thalweg {
 struct StageTime {
     std::string stage;
     double wall_s = 0.0;
-    double cpu_s = 0.0; ///< of all its threads
+    double cpu_s = 0.0;   ///< of all its threads
+    double peak_mb = 0.0; ///< [10^6 bytes] the most that the process took meanwhile, all threads and libraries
 };
 
 /// Times of stages, in order.
 using Timings = std::vector<StageTime>;
 
-/// Measures what work of this thread takes.
+/// Measures what work of this thread takes, and the process's memory meanwhile.
 class Stopwatch {
 public:
     StageTime time_of(char const* stage) const {
         std::chrono::duration<double> const taken = std::chrono::steady_clock::now() - begin_;
-        return {stage, taken.count(), cpu_seconds() - cpu_begin_s_};
+        return {stage, taken.count(), cpu_seconds() - cpu_begin_s_, static_cast<double>(peak_.bytes()) * 1e-6};
     }
 
 private:
     std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
     double cpu_begin_s_ = cpu_seconds();
+    PeakMemory peak_;
 };
 
 /// Times the stages, logs a line for each and collects what they find. When an error ends the work, what was found so
