@@ -2,14 +2,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/io/files/files.hpp>
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <charconv>
 #include <cstdlib>
 #include <exception>
 #include <fstream>
+#include <mutex>
 #include <system_error>
+#include <thread>
 #include <utility>
+#include <vector>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -50,16 +55,50 @@ void make_durable(fs::path const& place, std::string const& who) {
     }
 }
 
-// The same for every file and folder below a folder, and for the folder.
-void make_all_durable(fs::path const& folder, std::string const& who) {
+std::vector<fs::path> all_below(fs::path const& folder, std::string const& who) {
+    std::vector<fs::path> found;
     std::error_code error;
     fs::recursive_directory_iterator entry(folder, error);
     while (!error && entry != fs::recursive_directory_iterator()) {
-        make_durable(entry->path(), who);
+        found.push_back(entry->path());
         entry.increment(error);
     }
     if (error) {
         fail(who + ": " + folder.string(), error);
+    }
+    return found;
+}
+
+// The same for every file and folder below a folder, and for the folder. Each waits for the disk, whatever its size,
+// and those that wait together are served together.
+void make_all_durable(fs::path const& folder, std::string const& who) {
+    constexpr std::size_t most_threads = 8; // they only wait
+    std::vector<fs::path> const places = all_below(folder, who);
+    std::atomic<std::size_t> next = 0;
+    std::mutex guard;
+    std::exception_ptr failure;
+    auto const work = [&] {
+        try {
+            for (std::size_t i = next++; i < places.size(); i = next++) {
+                make_durable(places[i], who);
+            }
+        } catch (...) {
+            std::scoped_lock const lock(guard);
+            failure = std::current_exception();
+        }
+    };
+    {
+        std::vector<std::jthread> others;
+        try {
+            while (others.size() + 1 < std::min(places.size(), most_threads)) {
+                others.emplace_back(work);
+            }
+        } catch (std::system_error const&) { // no more threads for this process
+        }
+        work();
+    }
+    if (failure) {
+        std::rethrow_exception(failure);
     }
     make_durable(folder, who);
 }
