@@ -3,7 +3,9 @@
 """Writes the bindings of the library to Python from its headers: C++ for pybind11 (glue.hpp), docstrings in numpydoc's form,
 and type stubs.
 Usage: bind.py SOURCE OUT: SOURCE/lib has the headers; OUT gets NAME.cpp of each module, records.hpp and stubs/NAME.pyi.
-       bind.py --left-out SOURCE: the functions of the modules that Python does not have, and why."""
+       bind.py --left-out SOURCE: the functions of the modules that Python does not have, and why.
+In a comment, \\internal says that a function is for the modules above, \\cpponly that a function or an enumeration is
+for C++ alone; in the head of a header each holds for all its functions."""
 from __future__ import annotations
 
 import collections
@@ -41,20 +43,6 @@ MODULES = [
 FOLDERS = {"exports": "export"}
 CALLED = {"exports": "export", "make": "terrain", "ensemble": "members"}
 
-# Functions that Python does not get, by regular expressions of SPACE::NAME; the first that fits gives the reason.
-LEFT_OUT = [
-    (
-        r"(?!nearest_cells|cells_along|cells_of_vertices|length_of)\w+|portable::.*",
-        "numbers, memory and messages of the library itself",
-    ),
-    (r"solver::.*", "no stage: what stages solve with"),
-    (
-        r"\w+::name_of|io::(quantity_of|schema_named|point_format|tin_format|network_format)",
-        "a word is a str",
-    ),
-    (r"geometry::put_in_order|recipe::(un)?set_key", "it changes its argument: see by_hand.cpp for what there is instead"),
-    (r"io::write_geopackage", "see by_hand.cpp"),
-]
 RUN = ["threads", "progress", "log", "device"]
 NUMBERS = {
     "double": "float",
@@ -88,6 +76,7 @@ TEXTS = {"std::string", "std::string_view", "char const*", "io::Source"}
 ONLY_MADE = {("recipe", "Plan")} | {("make", name) for name in ("Ground", "Planform", "Terrain", "Water", "MakeResult", "Assessment", "SurfaceMeasures", "Rivers", "RiverFile")}
 # By hand: by_hand.cpp binds it.
 BY_HAND = {("", "StreamNetwork"), ("draw", "Picture")}
+# These cross in another way: by glue.hpp, or as keywords.
 NOT_RECORDS = {
     ("", "Finding"),
     ("", "Check"),
@@ -96,9 +85,6 @@ NOT_RECORDS = {
     ("", "Cell"),
     ("io", "Source"),
     ("", "Run"),
-    ("", "Node"),
-    ("", "NetworkDraft"),
-    ("", "DraftArc"),
 }
 
 
@@ -133,7 +119,18 @@ class Binder:
         self.left_out: list[tuple[str, str]] = []
         self.functions: dict[str, list[Function]] = collections.defaultdict(list)  # by space, overloads beside one another
         self.records: dict[tuple[str, str], Struct] = {}
+        self.by_hand = self.functions_by_hand()
         self.choose()
+
+    @staticmethod
+    def functions_by_hand() -> set[tuple[str, str]]:
+        """The functions that by_hand.cpp binds, by space."""
+        text = (pathlib.Path(__file__).parent / "by_hand.cpp").read_text(encoding="utf-8")
+        return {
+            (match[1], name)
+            for match in re.finditer(r"^void define_(\w+)_by_hand\(.*?^\}", text, re.MULTILINE | re.DOTALL)
+            for name in re.findall(r'add_function\(\s*module, "(\w+)"', match[0])
+        }
 
     @staticmethod
     def citations(bib: str) -> dict[str, tuple[str, str]]:
@@ -261,13 +258,26 @@ class Binder:
     def is_run(parameter: Parameter) -> bool:
         return bare(parameter.type) == "Run"
 
+    def is_word(self, takes: list[str], gives: str) -> bool:
+        """Whether a function gives the word of an enumeration, or finds the enumeration by its word."""
+        gives = arguments_of(gives)[1][0] if gives.startswith("std::optional<") else gives
+        if gives in TEXTS:
+            return len(takes) == 1 and self.scope_of(takes[0]) in self.enumerations
+        return self.scope_of(gives) in self.enumerations and bool(takes) and all(t in TEXTS for t in takes)
+
     def choose(self) -> None:
         for function in self.headers.functions:
             whole = f"{function.space}::{function.name}" if function.space else function.name
-            reason = next((why for pattern, why in LEFT_OUT if re.fullmatch(pattern, whole)), None)
-            if reason is None and "\\internal" in function.comment:
-                reason = "for modules above"
             types = [self.expanded(p.type, function.space) for p in function.parameters if not self.is_run(p)]
+            reason = None
+            if "\\internal" in function.comment:
+                reason = "for modules above"
+            if reason is None and "\\cpponly" in function.comment:
+                reason = "for C++ alone"
+            if reason is None and (function.space, function.name) in self.by_hand:
+                reason = "by_hand.cpp has it"
+            if reason is None and self.is_word(types, self.expanded(function.returns, function.space)):
+                reason = "a word is a str"
             if reason is None and any(re.search(r"(?<!const)&$", p.type.replace(" &", "&")) for p in function.parameters):
                 reason = "it changes its argument"
             if reason is None and not all(self.can_cross(t) for t in [*types, self.expanded(function.returns, function.space)]):
@@ -884,10 +894,7 @@ class Binder:
         text += "/// How Python calls the modules that it calls otherwise.\n"
         text += f"constexpr std::pair<std::string_view, std::string_view> renamed[] = {{{others}}};\n\n"
         for scope, enumeration in sorted(self.enumerations.items()):
-            if (
-                enumeration.header.startswith(("thalweg/core/run/", "thalweg/core/numbers/"))
-                or "internal" in enumeration.header
-            ):
+            if "\\cpponly" in enumeration.comment:
                 continue
             whole = "::".join(filter(None, scope))
             names = ", ".join(f'"{w}"' for w in self.words_of(scope))

@@ -95,7 +95,8 @@ class Reader:
         self.at = 0
         self.headers = headers
         self.name = name
-        self.is_internal = any(line.startswith("/// \\internal") for line in self.lines[:6])  # the header as a whole
+        head = [line for line in self.lines[:6] if line.startswith(("/// \\internal", "/// \\cpponly"))]
+        self.marks = " ".join(line.split()[1] for line in head)  # of all functions of the header
 
     def skip_block(self, opened: str) -> None:
         depth = opened.count("{") - opened.count("}")
@@ -242,7 +243,7 @@ class Reader:
             if one is None:
                 return
             parameters.append(Parameter(one[1].strip(), one[2], default.strip() or None))
-        comment = f"\\internal {above}" if self.is_internal else above
+        comment = f"{self.marks} {above}" if self.marks else above
         self.headers.functions.append(Function(space, match[2], match[1].strip(), parameters, comment, self.name))
 
 

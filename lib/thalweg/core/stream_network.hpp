@@ -141,6 +141,7 @@ private:
 
 /// Kinds of nodes by their incident arcs, and sink: an outlet where the water ends, which arcs do not show.
 enum class NodeKind : std::uint8_t { source, confluence, outlet, pseudo, sink };
+/// \cpponly
 NodeKind kind_of(StreamNetwork const& net, NodeId node);
 char const* name_of(NodeKind kind);
 

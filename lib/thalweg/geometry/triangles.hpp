@@ -43,6 +43,7 @@ double height_on_plane(Vec3 const& a, Vec3 const& b, Vec3 const& c, Vec2 p);
 /// Puts the triangles of a TIN into a canonical order: each begins with its lowest vertex, and they follow the Morton
 /// curve of these vertices, so that neighbours are close in memory and in files. Orientations stay.
 /// \param tin finite vertices
+/// \cpponly
 void put_in_order(Tin& tin);
 
 /// Whether angles and lengths of a TIN are measured in plan or in space.

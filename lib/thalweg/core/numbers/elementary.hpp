@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+/// \cpponly
 
 /// Elementary functions with the same bits on every machine: only + - * / and sqrt, no libm, no contraction. Each is
 /// within 2 ulp of the true value on its range.

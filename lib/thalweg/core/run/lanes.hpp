@@ -7,6 +7,7 @@
 namespace thalweg {
 
 /// Instruction sets that a kernel is compiled for (lanes.inc); results have the same bytes on each.
+/// \cpponly
 enum class Lanes : std::uint8_t {
     plain, ///< the architecture's baseline
     avx2

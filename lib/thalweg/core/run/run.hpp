@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+/// \cpponly
 
 #include <cstdint>
 #include <functional>
@@ -11,6 +12,7 @@
 namespace thalweg {
 
 /// The device on which linear systems are solved.
+/// \cpponly
 enum class Device : std::uint8_t { cpu, opencl };
 
 template <class T> class Raster;
