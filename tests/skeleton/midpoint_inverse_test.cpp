@@ -232,7 +232,7 @@ TEST(MidpointInverse, TheSameForAnyNumberOfThreads) {
     EXPECT_TRUE(same_bits(one.z, four.z));
 }
 
-// Lines of its own make specification 3.6 x 2.55 at 1.5, 3.23 at 3, 3.50 at 6, 3.57 without bound; the paper's x 2.21.
+// In a trial other thin lines grew x 2.55 at 1.5, 3.23 at 3, 3.50 at 6, 3.57 without bound; the paper's x 2.21.
 TEST(MidpointInverse, ThinLinesGrowAboutAsThePapers) {
     Skeleton const lines = thin_lines(1024);
     auto const growth = [&](double longest) {

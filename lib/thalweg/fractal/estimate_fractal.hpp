@@ -62,7 +62,7 @@ struct CellWindow {
 /// \throws BadInput for an infinite height
 /// \throws BadParameter when the prescribed H is outside its range
 ///
-/// Source: \cite zhang, section on fractal interpolation (H and sigma of the initial grid); specification 1.6.
+/// Source: \cite zhang, section on fractal interpolation (H and sigma of the initial grid).
 Fractal estimate_fractal(Raster<float> const& dem, EstimateParams const& params = {}, Run const& run = {});
 
 /// Estimates H and sigma from the pairs of cells inside a window.

@@ -254,7 +254,7 @@ Terms terms_of(Conditioning const& c, std::vector<Cell> const& cells, Run const&
 // positions, NaN where all nearest coarse cells are holes, elsewhere the surface conditioned on the heights. A smaller
 // dem is part of a larger one bit for bit; the same bytes for any number of threads. Throws BadParameter for more than
 // most_conditioning_cells heights, or a lattice too large for the solver. Source: Stein 2002 (the surface);
-// conditioning by kriging as in Journel and Huijbregts 1978; specification 1.6.
+// conditioning by kriging as in Journel and Huijbregts 1978.
 void condition_surface(Conditioning const& conditioning, Raster<float>& dem, Run const& run) {
     constexpr float hole = std::numeric_limits<float>::quiet_NaN();
     Raster<float> const& coarse = *conditioning.coarse;

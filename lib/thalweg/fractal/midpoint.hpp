@@ -99,7 +99,7 @@ struct StencilWeights {
 /// \return for kriged stencils the weights of least variance under the variogram d^(2H), and that variance; if all are
 /// known, symmetric neighbours have equal weights
 ///
-/// Source: \cite zhang, equation 14 (four); specification 1.6; ordinary kriging as in any textbook of geostatistics.
+/// Source: \cite zhang, equation 14 (four); ordinary kriging as in any textbook of geostatistics.
 StencilWeights stencil_weights(Stencil stencil, std::uint32_t known, double hurst);
 
 enum class Noise : std::uint8_t {
@@ -175,8 +175,7 @@ struct DisplacedDem {
 /// Stencil::exact: for more than 2000 coarse cells with data, a torus of more than 2^31 cells, Noise::uniform or
 /// Adaptation::local
 ///
-/// Source: \cite zhang, equation 14 (Stencil::four); \cite fournier1982; \cite stein2002 (Stencil::exact);
-/// specification 1.6.
+/// Source: \cite zhang, equation 14 (Stencil::four); \cite fournier1982; \cite stein2002 (Stencil::exact).
 DisplacedDem midpoint(Raster<float> const& coarse, MidpointParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::fractal

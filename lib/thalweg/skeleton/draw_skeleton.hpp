@@ -48,7 +48,7 @@ struct PlaceOnLine {
 /// \throws BadParameter when a parameter is outside its range
 /// \throws BadInput naming the place: a share outside [0, 1], or farther than 2^20 wavelengths from the origin
 ///
-/// Source: \cite nenu2015, equation 11; specification 3.5; \cite perlin1985 by libnoise.
+/// Source: \cite nenu2015, equation 11; \cite perlin1985 by libnoise.
 std::vector<double> noise_along(std::vector<PlaceOnLine> const& places, Vec2 origin,
                                 NoiseAlongParams const& params = {}, Run const& run = {});
 
@@ -78,7 +78,7 @@ struct DrawnSkeleton {
 /// system
 /// \throws BadParameter when a parameter is outside its range
 ///
-/// Source: \cite nenu2015, section 3.1 and equation 11 (begun at the height of the ridge's start); specification 3.5.
+/// Source: \cite nenu2015, section 3.1 and equation 11 (begun at the height of the ridge's start).
 DrawnSkeleton draw_skeleton(Valley const& valley, RidgeLines const& ridges, FeaturePoints const& points,
                             DrawSkeletonParams const& params = {}, Run const& run = {});
 

@@ -36,7 +36,7 @@ struct MidpointInverseParams {
 /// \throws BadParameter when L is outside its range
 /// \throws BadInput naming the cell with an infinite height
 ///
-/// Source: \cite nenu2015, section 3.2; \cite belhadj2005; specification 3.6.
+/// Source: \cite nenu2015, section 3.2; \cite belhadj2005.
 Skeleton midpoint_inverse(Skeleton const& skeleton, MidpointInverseParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::skeleton

@@ -73,7 +73,7 @@ struct Regression {
 /// \throws BadInput for too few points, a coordinate that is not finite, or (centre) points that do not determine the
 /// terms besides x and y
 ///
-/// Source: \cite zhang, equations 12 and 13 (specification 1.4); c_a, which cannot be told apart from c_0 to c_2, is 1.
+/// Source: \cite zhang, equations 12 and 13; c_a, which cannot be told apart from c_0 to c_2, is 1.
 Regression regress(FeaturePoints const& points, Grid const& grid, RegressParams const& params = {},
                    Run const& run = {});
 

@@ -56,7 +56,7 @@ struct RidgesParams {
 /// \throws BadParameter when a parameter is outside its range
 /// \throws BadInput when labels or heights are not the network's, or (segments) arcs meet away from their vertices
 ///
-/// Source: \cite nenu2015, section 3.1 and equation 10; specification 3.4.
+/// Source: \cite nenu2015, section 3.1 and equation 10.
 RidgeLines ridges(ElevatedNetwork const& network, std::vector<std::int64_t> const& stream_of_arc, Grid const& grid,
                   RidgesParams const& params = {}, Run const& run = {});
 

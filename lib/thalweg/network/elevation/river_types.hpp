@@ -70,7 +70,7 @@ struct RiverTypes {
 /// \throws BadParameter when a parameter is outside its range
 /// \throws BadInput naming the arc, its feature and position for an unknown type; for orders of another network
 ///
-/// Source: \cite nenu2015, section 3 and table 2; specification 3.3.
+/// Source: \cite nenu2015, section 3 and table 2.
 RiverTypes assign_types(StreamNetwork const& network, NetworkOrders const& orders, AssignTypesParams const& params = {},
                         Run const& run = {});
 

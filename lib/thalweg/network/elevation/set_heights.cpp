@@ -81,7 +81,7 @@ ElevatedNetwork elevate_linearly(StreamNetwork const& network, std::vector<doubl
     return raised;
 }
 
-/// The least slope of a repaired arc as a share of the wanted slope (specification 0.3).
+/// The least slope of a repaired arc as a share of the wanted slope (docs/decisions/0004-heights.md).
 constexpr double least_share = 0.01;
 
 std::vector<double> straight_heights(StreamNetwork const& network, double slope) {

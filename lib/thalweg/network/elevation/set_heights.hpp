@@ -65,7 +65,7 @@ struct NetworkWithHeights {
 /// \throws BadParameter when a parameter is outside its range
 /// \throws BadInput for an arc of length 0 or a network that is not a forest
 ///
-/// Source: \cite cao2009, section 3.3, figure 5; specification 0.3 (majorant with least slope 0.01 s).
+/// Source: \cite cao2009, section 3.3, figure 5; straight_repaired: docs/decisions/0004-heights.md.
 NetworkWithHeights set_heights(StreamNetwork const& network, HeightParams const& params = {}, Run const& run = {});
 
 /// Options of set_heights_graded().
@@ -115,7 +115,7 @@ struct HeightsByTypeParams {
 /// position of the arc's upper end.
 /// \throws BadInput for an arc of length 0, a network that is not a forest, or types of another network
 ///
-/// Source: \cite nenu2015, section 3 and table 2; specification 3.3.
+/// Source: \cite nenu2015, section 3 and table 2.
 ElevatedNetwork set_heights_by_type(StreamNetwork const& network, RiverTypes const& types,
                                     HeightsByTypeParams const& params = {}, Run const& run = {});
 

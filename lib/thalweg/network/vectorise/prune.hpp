@@ -48,7 +48,7 @@ struct PrunedNetwork {
 /// \throws BadParameter when L removes every arc; names the largest L that does not
 /// \throws BadInput for a network that has no arcs or is not a forest
 ///
-/// Source: \cite cao2009, equation 2, applied to leaves to a fixpoint (specification 0.2).
+/// Source: \cite cao2009, equation 2, applied to leaves to a fixpoint: docs/decisions/0003-pruning.md.
 PrunedNetwork prune(StreamNetwork const& network, PruneParams const& params, Run const& run = {});
 
 /// Cuts L-shaped corners of arcs that run from cell to cell, as pruning leaves them at former confluences: D8 flow
@@ -59,7 +59,7 @@ PrunedNetwork prune(StreamNetwork const& network, PruneParams const& params, Run
 /// successive corners every second is kept. Other vertices, nodes and arc numbers stay. Cutting again changes nothing.
 /// \throws BadParameter when cell_m is outside its range
 ///
-/// Source: m-adjacency (specification 0.2) of the pruned network.
+/// Source: m-adjacency, which trace() requires of a skeleton.
 StreamNetwork cut_corners(StreamNetwork const& network, double cell_m, Run const& run = {});
 
 } // namespace thalweg::network

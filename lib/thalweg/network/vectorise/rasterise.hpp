@@ -37,7 +37,7 @@ struct RasterisedRivers {
 /// \return [m] by cell; NaN: no river. As float32, heights do not rise downstream along the cells of any arc.
 /// \throws BadInput naming the arc and position of a vertex outside the grid or a height that is not a number
 ///
-/// Source: \cite cao2009, section 3.3; specification 0.3.
+/// Source: \cite cao2009, section 3.3.
 RasterisedRivers rasterise(ElevatedNetwork const& network, Grid const& grid);
 
 /// Converts the heights of rivers to heights of channel cells.

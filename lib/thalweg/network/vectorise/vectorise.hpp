@@ -51,7 +51,7 @@ struct TraceParams {
 /// \throws BadInput for a skeleton without two adjacent cells
 /// \throws BadParameter for a mouth that is not a position
 ///
-/// Source: \cite cao2009, section 3.2; specification 0.2.
+/// Source: \cite cao2009, section 3.2.
 StreamNetwork trace(Mask const& skeleton, TraceParams const& params, Run const& run = {});
 
 } // namespace thalweg::network

@@ -72,7 +72,7 @@ struct DiffusedDem {
 /// \throws BadParameter when a parameter is outside its range; above alpha = 1/4 the sweeps are unstable
 /// \throws NotConverged when the solver does not reach the tolerance
 ///
-/// Source: \cite nenu2015, equations 12 and 13, the latter with its sign corrected; specification 3.7.
+/// Source: \cite nenu2015, equations 12 and 13, the latter with its sign corrected.
 DiffusedDem diffuse(Skeleton const& skeleton, DiffuseParams const& params = {}, Run const& run = {});
 DiffusedDem diffuse(Skeleton const& skeleton, Mask const& inside, DiffuseParams const& params = {},
                     Run const& run = {});
@@ -92,7 +92,7 @@ struct HarmonicParams {
 /// \throws BadParameter when the tolerance is outside its range
 /// \throws NotConverged when the solver does not reach the tolerance
 ///
-/// Source: specification 0.4.
+/// Source: docs/decisions/0009-harmonic-base.md.
 Raster<float> harmonic(Valley const& valley, Run const& run = {});
 Raster<float> harmonic(Valley const& valley, Mask const& inside, Run const& run = {});
 Raster<float> harmonic(Valley const& valley, Mask const& inside, HarmonicParams const& params, Run const& run = {});

@@ -57,7 +57,7 @@ struct Expansion {
 /// -1 and base NaN
 /// \throws BadInput for no valley cell inside, an infinite height, or a mask in another frame
 ///
-/// Source: \cite cao2009, equation 3; specification 0.4.
+/// Source: \cite cao2009, equation 3.
 Expansion expand_frontier(Valley const& valley, Mask const& inside, Run const& run = {});
 
 /// Computes expand_frontier without barriers in closed form: level = d(c), base = min{e_v : |c - v| = d(c)},
@@ -65,8 +65,6 @@ Expansion expand_frontier(Valley const& valley, Mask const& inside, Run const& r
 /// \param valley [m] heights of river cells
 /// \return the same bytes as expand_frontier
 /// \throws BadInput for no valley cell or an infinite height
-///
-/// Source: specification 0.4.
 Expansion expand(Valley const& valley, Run const& run = {});
 
 /// What dilate() returns.
@@ -88,7 +86,7 @@ struct DilatedDem {
 /// \throws BadParameter for increments as in increments(), a relief below 0, a relief for increments that do not rise,
 /// or heights beyond float
 ///
-/// Source: \cite cao2009, equations 3 and 4, Table 1; specification 0.4.
+/// Source: \cite cao2009, equations 3 and 4, Table 1.
 DilatedDem dilate(Valley const& valley, DilateParams const& params = {}, Run const& run = {});
 DilatedDem dilate(Valley const& valley, Mask const& inside, DilateParams const& params = {}, Run const& run = {});
 
@@ -101,7 +99,7 @@ DilatedDem dilate(Valley const& valley, Mask const& inside, DilateParams const& 
 /// \throws Error as dilate
 /// \throws BadInput when the base has another frame
 ///
-/// Source: specification 0.4, base = harmonic.
+/// Source: docs/decisions/0009-harmonic-base.md, where base = harmonic(valley).
 DilatedDem dilate_over(Valley const& valley, Raster<float> const& base, DilateParams const& params = {},
                        Run const& run = {});
 DilatedDem dilate_over(Valley const& valley, Raster<float> const& base, Mask const& inside,

@@ -58,8 +58,6 @@ struct Forest {
 /// moves that would bring links closer than the clearance, or across one another, are not made.
 /// \param forest binary trees of links, and the areas they fill
 /// \return by link: position of its upper end. No two links cross; few are closer to others than the clearance.
-///
-/// Source: specification 3.2, order first.
 std::vector<Vec2> spread_forest(Forest const& forest, Run const& run = {});
 
 /// Links that keep clear of one another.
@@ -77,8 +75,6 @@ struct SettledLinks {
 /// a common node, meets its neighbours at 20 degrees or more and touches no wall. A link with a prescribed position may
 /// touch a wall; two such links must only not meet, at an angle of at least 1 degree. The link downstream of a placed
 /// link is placed.
-///
-/// Source: specification 3.2.
 SettledLinks settle_links(Forest const& forest, std::vector<Vec2> wanted);
 
 /// A network of the placed links.
