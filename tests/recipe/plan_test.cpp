@@ -13,7 +13,6 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/make/make.hpp>
 #include <thalweg/recipe/frame.hpp>
-#include <thalweg/recipe/stages.hpp>
 
 #include <recipe/old_recipes.hpp>
 

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <thalweg/commands/make.hpp>
+#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/recipe/recipe.hpp>
 #include <thalweg/recipe/stages.hpp>

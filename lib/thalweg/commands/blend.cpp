@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/append.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/mesh/tin.hpp>
@@ -17,7 +18,6 @@
 #include <thalweg/io/sources/sources.hpp>
 #include <thalweg/network/import/prepare_lines.hpp>
 #include <thalweg/recipe/read_inputs.hpp>
-#include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::commands {
 namespace {

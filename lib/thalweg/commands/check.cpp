@@ -13,7 +13,9 @@
 #include <nlohmann/json.hpp>
 
 #include <thalweg/commands/internal/repair_network.hpp>
+#include <thalweg/core/append.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/stage_log.hpp>
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/flow/route.hpp>
 #include <thalweg/io/crs/crs.hpp>
@@ -22,7 +24,6 @@
 #include <thalweg/make/river_claims.hpp>
 #include <thalweg/recipe/check_recipe.hpp>
 #include <thalweg/recipe/read_inputs.hpp>
-#include <thalweg/recipe/stages.hpp>
 #include <thalweg/report/report.hpp>
 
 namespace thalweg::commands {

@@ -15,7 +15,6 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/ensemble/ensemble.hpp>
 #include <thalweg/recipe/recipe_files.hpp>
-#include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::commands {
 

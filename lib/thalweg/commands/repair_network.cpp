@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/append.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/make/given.hpp>
@@ -23,7 +24,6 @@
 #include <thalweg/network/import/river_heights.hpp>
 #include <thalweg/network/order/main_stems.hpp>
 #include <thalweg/network/order/order.hpp>
-#include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::commands {
 namespace {

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <thalweg/core/append.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/geometry/tin_of_dem.hpp>
 #include <thalweg/geometry/triangulate.hpp>

@@ -15,9 +15,9 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/append.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/ensemble/internal/member_store.hpp>
-#include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::ensemble {
 

@@ -24,13 +24,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <thalweg/core/append.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/files/tar.hpp>
 #include <thalweg/io/raster/heightmap.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/make/river_claims.hpp>
 #include <thalweg/recipe/recipe_files.hpp>
-#include <thalweg/recipe/stages.hpp>
 #include <thalweg/report/report.hpp>
 
 namespace thalweg::ensemble {

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/append.hpp>
 #include <thalweg/make/file_values.hpp>
 #include <thalweg/make/internal/assess.hpp>
 #include <thalweg/make/river_claims.hpp>

@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/append.hpp>
 #include <thalweg/core/vec.hpp>
-#include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::make {
 namespace {

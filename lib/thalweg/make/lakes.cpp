@@ -10,11 +10,11 @@
 #include <fmt/format.h>
 
 #include <thalweg/blend/mask_polygons.hpp>
+#include <thalweg/core/append.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/io/raster/polygons.hpp>
 #include <thalweg/recipe/recipe_files.hpp>
-#include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::make {
 

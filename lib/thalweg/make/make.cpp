@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/make/make.hpp>
 
+#include <thalweg/core/append.hpp>
 #include <thalweg/make/internal/assess.hpp>
 #include <thalweg/make/internal/ground.hpp>
 #include <thalweg/make/internal/planform.hpp>

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/append.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/core/run/result_cache.hpp>
 #include <thalweg/flow/catchments.hpp>

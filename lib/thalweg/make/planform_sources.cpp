@@ -25,6 +25,7 @@
 #include <thalweg/network/planform/rotate.hpp>
 #include <thalweg/network/vectorise/vectorise.hpp>
 #include <thalweg/recipe/frame.hpp>
+#include <thalweg/recipe/plan.hpp>
 #include <thalweg/recipe/stage_recipes.hpp>
 #include <thalweg/recipe/stages.hpp>
 

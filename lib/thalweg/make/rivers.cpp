@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/append.hpp>
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/make/internal/lakes.hpp>

@@ -20,6 +20,7 @@
 #include <thalweg/network/channels/side_valleys.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
 #include <thalweg/recipe/check_recipe.hpp>
+#include <thalweg/recipe/frame.hpp>
 #include <thalweg/recipe/recipe_files.hpp>
 #include <thalweg/recipe/stage_recipes.hpp>
 #include <thalweg/recipe/stages.hpp>

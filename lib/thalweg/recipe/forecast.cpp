@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/recipe/internal/forecast.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -12,7 +12,6 @@
 
 #include <thalweg/core/run/memory.hpp>
 #include <thalweg/core/run/refuse.hpp>
-#include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::recipe {
 namespace {
@@ -258,6 +257,9 @@ void require_no_stray_vertex(RiverLines const& lines) {
     }
 }
 
+namespace {
+
+/// Throws BadInput naming the first point off the grid. name: the file, as in the recipe.
 void require_on_grid(FeaturePoints const& points, Grid const& grid, std::string const& name) {
     for (std::size_t i = 0; i < points.points.size(); ++i) {
         Vec3 const& p = points.points[i];
@@ -267,6 +269,8 @@ void require_on_grid(FeaturePoints const& points, Grid const& grid, std::string 
                             name, i + 1, p.x, p.y, grid.west, grid.south(), grid.east(), grid.north);
     }
 }
+
+} // namespace
 
 void require_skeleton_on_grid(Recipe const& recipe, FeaturePoints const& points, RiverLines const& ridges,
                               Grid const& grid) {

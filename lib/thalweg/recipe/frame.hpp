@@ -67,6 +67,25 @@ Grid frame_tree(std::int64_t links, GridRecipe const& wanted);
 Grid frame_polygons(Polygons const& polygons, GridRecipe const& wanted);
 
 /// \internal
+/// Chooses the grid of a land without rivers.
+/// \param points that it must hold, if there are any
+/// \param wanted the grid of the recipe; 0: chosen
+/// \return the requested grid, or the points' box and 5 % around it on multiples of the cell
+Grid frame_land(FeaturePoints const& points, GridRecipe const& wanted);
+
+/// \internal
+/// Rejects lines of which one vertex, or at most 1 %, is more than twenty times as far away as all others: a corrupt
+/// coordinate that would enlarge the grid. Fewer than 20 vertices are not judged.
+/// \throws BadInput naming the line, the vertex and the remedy
+void require_no_stray_vertex(RiverLines const& lines);
+
+/// \internal
+/// Requires that the points and ridges of a recipe's files lie on the grid.
+/// \throws BadInput naming the file and its first point or ridge off the grid
+void require_skeleton_on_grid(Recipe const& recipe, FeaturePoints const& points, RiverLines const& ridges,
+                              Grid const& grid);
+
+/// \internal
 /// Estimates the peak memory of a terrain.
 /// \param cells number of cells
 /// \return [bytes] upper limit

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-
-#include <thalweg/recipe/stages.hpp>
+#include <thalweg/recipe/plan.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -26,9 +25,11 @@
 #include <thalweg/recipe/check_recipe.hpp>
 #include <thalweg/recipe/condition.hpp>
 #include <thalweg/recipe/frame.hpp>
+#include <thalweg/recipe/internal/forecast.hpp>
 #include <thalweg/recipe/read_inputs.hpp>
 #include <thalweg/recipe/recipe_files.hpp>
 #include <thalweg/recipe/stage_recipes.hpp>
+#include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::recipe {
 namespace {

@@ -64,6 +64,15 @@ struct Plan {
 /// \throws BadInput when a file is missing or unsuitable for its key, or the grid needs more memory than is free
 Plan resolve(Recipe const& recipe, Run const& run = {});
 
+/// \internal
+/// The tree that a recipe grows by Tokunaga's law.
+growth::TokunagaParams tree_of(Recipe const& recipe);
+
+/// \internal
+/// Advice if the links of such a tree find no room.
+inline constexpr char const* more_room =
+    "lower network.tokunaga.order or spacing, or take a larger grid (or smaller cells)";
+
 /// What make() would do with a recipe.
 struct Forecast {
     std::vector<std::string> stages; ///< in order, named as in its timings

@@ -30,7 +30,6 @@
 #include <thalweg/recipe/frame.hpp>
 #include <thalweg/recipe/recipe_files.hpp>
 #include <thalweg/recipe/recipe_keys.hpp>
-#include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::recipe {
 namespace {

@@ -9,12 +9,12 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/core/run/stage_log.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/network/import/river_heights.hpp>
 #include <thalweg/recipe/plan.hpp>
 #include <thalweg/recipe/recipe.hpp>
-#include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::recipe {
 

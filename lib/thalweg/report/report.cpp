@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <toml++/toml.h>
 
+#include <thalweg/core/append.hpp>
 #include <thalweg/core/bounded_json.hpp>
 #include <thalweg/core/run/memory.hpp>
 #include <thalweg/core/run/messages.hpp>
@@ -18,7 +19,6 @@
 #include <thalweg/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/make/file_values.hpp>
 #include <thalweg/make/laws.hpp>
-#include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::report {
 namespace {

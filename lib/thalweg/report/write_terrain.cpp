@@ -32,7 +32,6 @@
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/planform/split_confluences.hpp>
 #include <thalweg/recipe/recipe_files.hpp>
-#include <thalweg/recipe/stages.hpp>
 #include <thalweg/report/internal/qgis_files.hpp>
 #include <thalweg/report/landmarks.hpp>
 #include <thalweg/report/page.hpp>

@@ -5,12 +5,12 @@
 #include <optional>
 
 #include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/stage_log.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/make/planform.hpp>
 #include <thalweg/network/elevation/river_types.hpp>
 #include <thalweg/recipe/plan.hpp>
 #include <thalweg/recipe/recipe.hpp>
-#include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::make {
 
