@@ -100,6 +100,11 @@ TEST(GrowForest, refuses_parameters_and_seeds) {
         EXPECT_TRUE(test::refused("growth.grow_forest", [&] { grow_forest(land, seeds, forest_params(1, 7)); }));
     }
     EXPECT_NO_THROW(grow_forest(land, {{0, 0}, {2, 0}}, forest_params(1, 7)));
+    for (Grid const& large : {frame(100000, 100000), frame(2000000, 1)}) { // refused before a cell is read
+        EXPECT_TRUE(test::refused("growth.grow_forest", [&] {
+            grow_forest(Mask::view_of(large, {}, nullptr), {{0, 0}}, forest_params(5, 7));
+        }));
+    }
 }
 
 TEST(GrowForest, is_cancelled_while_nothing_grows) {

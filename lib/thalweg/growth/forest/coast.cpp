@@ -270,13 +270,16 @@ Mask shape_island(Grid const& grid, IslandParams const& params, Run const& run) 
 std::vector<Cell> coast_cells(Mask const& land) {
     std::vector<Cell> coast;
     Grid const& grid = land.grid();
-    for (std::int64_t i = 0; i < grid.cells(); ++i) {
-        Cell const c = grid.at(i);
-        bool const at_sea = grid.on_border(c) || land[Cell{c.col - 1, c.row}] == 0 ||
-                            land[Cell{c.col + 1, c.row}] == 0 || land[Cell{c.col, c.row - 1}] == 0 ||
-                            land[Cell{c.col, c.row + 1}] == 0;
-        if (land[i] != 0 && at_sea) {
-            coast.push_back(c);
+    for (std::int64_t row = 0; row < grid.height; ++row) {
+        auto const here = land.row(row);
+        bool const edge = row == 0 || row == grid.height - 1;
+        auto const above = land.row(edge ? row : row - 1);
+        auto const below = land.row(edge ? row : row + 1);
+        for (std::int64_t col = 0; col < grid.width; ++col) {
+            if (here[col] != 0 && (edge || col == 0 || col == grid.width - 1 || here[col - 1] == 0 ||
+                                   here[col + 1] == 0 || above[col] == 0 || below[col] == 0)) {
+                coast.push_back({col, row});
+            }
         }
     }
     return coast;

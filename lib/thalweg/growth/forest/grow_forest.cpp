@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdlib>
+#include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -17,22 +20,30 @@ namespace thalweg::growth {
 /// Two sweeps: exact, because all eight steps count as one.
 Raster<std::uint8_t> distance_to_outside(Mask const& region) {
     Raster<std::uint8_t> room = framed<std::uint8_t>(region, 0);
-    std::int64_t const width = room.width();
     for (std::uint8_t& r : room.values()) {
         r = r != 0 ? most_room : 0;
     }
-    auto const lower = [&](std::int64_t i, std::int64_t sign) {
-        for (std::int64_t const offset : {std::int64_t{1}, width - 1, width, width + 1}) {
-            if (room[i] > 0) {
-                room[i] = static_cast<std::uint8_t>(std::min<int>(room[i], room[i + sign * offset] + 1));
-            }
+    std::int64_t const end = room.width() - 1;
+    auto const lower = [end](std::span<std::uint8_t> row, std::span<std::uint8_t const> beside) {
+        for (std::int64_t col = 1; col < end; ++col) {
+            std::uint8_t const least = std::min(std::min(beside[col - 1], beside[col]), beside[col + 1]);
+            auto const one_more = static_cast<std::uint8_t>(least + (least < most_room ? 1 : 0));
+            row[col] = std::min(row[col], one_more);
         }
     };
-    for (std::int64_t i = 0; i < room.cells(); ++i) {
-        lower(i, -1);
+    for (std::int64_t r = 1; r < room.height() - 1; ++r) {
+        auto const row = room.row(r);
+        lower(row, room.row(r - 1));
+        for (std::int64_t col = 1; col < end; ++col) {
+            row[col] = static_cast<std::uint8_t>(std::min<int>(row[col], row[col - 1] + 1));
+        }
     }
-    for (std::int64_t i = room.cells() - 1; i >= 0; --i) {
-        lower(i, 1);
+    for (std::int64_t r = room.height() - 2; r > 0; --r) {
+        auto const row = room.row(r);
+        lower(row, room.row(r + 1));
+        for (std::int64_t col = end - 1; col > 0; --col) {
+            row[col] = static_cast<std::uint8_t>(std::min<int>(row[col], row[col + 1] + 1));
+        }
     }
     return room;
 }
@@ -75,6 +86,62 @@ void RegionWalk::step(Cell& at, RandomStream& random) const {
     }
 }
 
+Disc::Disc(std::int64_t radius) {
+    for (std::int64_t row = 0; row < radius; ++row) {
+        std::int64_t col = radius;
+        while (col * col + row * row >= radius * radius) {
+            --col;
+        }
+        reach_.push_back(col);
+    }
+    for (std::int64_t row = 1 - radius; row < radius; ++row) {
+        std::int64_t const beyond = std::min(reach(row - 1), reach(row + 1));
+        for (std::int64_t col = -reach(row); col <= reach(row); ++col) {
+            if (std::abs(col) == reach(row) || std::abs(col) > beyond) {
+                rim_.push_back({static_cast<std::int32_t>(col), static_cast<std::int32_t>(row)});
+            }
+        }
+    }
+}
+
+std::int64_t take_piece(Cell from, Mask& left, Run const& run) {
+    std::int64_t taken = 0;
+    std::vector<Cell> open{from};
+    for (std::size_t rows = 0; !open.empty(); ++rows) {
+        if (rows % 1024 == 0) {
+            run.check();
+        }
+        Cell const c = open.back();
+        open.pop_back();
+        auto const row = left.row(c.row);
+        if (row[c.col] == 0) {
+            continue;
+        }
+        std::int64_t west = c.col;
+        std::int64_t end = c.col + 1;
+        while (west > 0 && row[west - 1] != 0) {
+            --west;
+        }
+        while (end < left.width() && row[end] != 0) {
+            ++end;
+        }
+        std::fill(row.begin() + west, row.begin() + end, std::uint8_t{0});
+        taken += end - west;
+        for (std::int64_t const r : {c.row - 1, c.row + 1}) {
+            if (r < 0 || r >= left.height()) {
+                continue;
+            }
+            auto const beside = left.row(r);
+            for (std::int64_t col = west; col < end; ++col) {
+                if (beside[col] != 0 && (col == west || beside[col - 1] == 0)) {
+                    open.push_back({col, r});
+                }
+            }
+        }
+    }
+    return taken;
+}
+
 namespace {
 
 Cell moved(Cell c, Site by) {
@@ -83,26 +150,21 @@ Cell moved(Cell c, Site by) {
 
 /// Cells of the region that a walker can reach from a seed.
 Mask reached_from(std::vector<Cell> const& seeds, Mask const& region, Run const& run) {
-    Mask reached(region.grid(), 0);
-    std::vector<Cell> open = seeds;
+    Mask left = region;
     for (Cell const s : seeds) {
-        reached[s] = 1;
+        take_piece(s, left, run);
     }
-    for (std::size_t visited = 0; !open.empty(); ++visited) {
-        if (visited % (1U << 18U) == 0) {
-            run.check();
-        }
-        Cell const c = open.back();
-        open.pop_back();
-        for (Site const o : neighbour_offsets) {
-            Cell const next = moved(c, o);
-            if (region.grid().contains(next) && region[next] != 0 && reached[next] == 0) {
-                reached[next] = 1;
-                open.push_back(next);
-            }
-        }
+    for (std::int64_t i = 0; i < region.cells(); ++i) {
+        left[i] = region[i] != 0 && left[i] == 0 ? 1 : 0;
     }
-    return reached;
+    return left;
+}
+
+Grid frame_of(Grid const& grid) {
+    Grid frame;
+    frame.width = grid.width + 2;
+    frame.height = grid.height + 2;
+    return frame;
 }
 
 Grid blocks_of(Grid const& grid, std::int64_t side) {
@@ -116,6 +178,7 @@ constexpr std::uint64_t forest_stage = 0x666f726573743031; // "forest01"
 
 void check(Mask const& region, std::vector<Cell> const& seeds, ForestParams const& params) {
     constexpr std::int64_t longest = 1 << 20;
+    constexpr std::int64_t most_cells = 4'000'000'000; // their framed indices have 32 bits
     require_in("growth.grow_forest", "step_cells", params.step_cells, Range::between(1, 100));
     refuse_if<BadParameter>(params.particles < 0,
                             "growth.grow_forest: particles is {}, it must be at least 1, or 0 for all that find room",
@@ -125,6 +188,9 @@ void check(Mask const& region, std::vector<Cell> const& seeds, ForestParams cons
     refuse_if<BadInput>(std::max(region.width(), region.height()) > longest,
                         "growth.grow_forest: the region has {} x {} cells, at most {} a side are possible",
                         region.width(), region.height(), longest);
+    refuse_if<BadInput>(region.cells() > most_cells,
+                        "growth.grow_forest: the region has {} x {} cells, at most 4e9 are possible", region.width(),
+                        region.height());
     refuse_if<BadInput>(seeds.empty(), "growth.grow_forest: there is no seed, give at least one");
     for (Cell const s : seeds) {
         refuse_if<BadInput>(!region.grid().contains(s) || region[s] == 0,
@@ -153,19 +219,22 @@ private:
 } // namespace
 
 ForestGrowth::ForestGrowth(Mask const& region, std::vector<Cell> const& seeds, std::int64_t step, Run const& run)
-    : grid_(region.grid()), step_(step), land_(reached_from(seeds, region, run)), walk_(land_), nearest_(grid_, -1),
-      first_(blocks_of(grid_, step), -1), state_(grid_, State::far), is_start_(grid_, 0) {
+    : grid_(region.grid()), step_(step), disc_(step), walk_(reached_from(seeds, region, run)),
+      first_(blocks_of(grid_, step), -1), state_(frame_of(grid_), State::closed) {
     run.check();
-    for (std::int64_t i = 0; i < grid_.cells(); ++i) {
-        cells_ += land_[i];
-        state_[i] = land_[i] != 0 ? State::far : State::closed;
-    }
-    for (Cell const s : seeds) {
-        bool const alone = all_near(s, [](std::int32_t) { return false; });
-        if (!alone) {
-            throw BadInput(fmt::format("growth.grow_forest: the seed ({}, {}) lies nearer than {} cells to another",
-                                       s.col, s.row, 2 * step));
+    for (std::int64_t row = 0; row < grid_.height; ++row) {
+        for (std::int64_t col = 0; col < grid_.width; ++col) {
+            if (walk_.inside({col, row})) {
+                state_[framed({col, row})] = State::far;
+                ++cells_;
+            }
         }
+    }
+    start_cells_.resize(static_cast<std::size_t>(cells_) + 1);
+    for (Cell const s : seeds) {
+        refuse_if<BadInput>(!near(s).empty(),
+                            "growth.grow_forest: the seed ({}, {}) lies nearer than {} cells to another", s.col, s.row,
+                            2 * step);
         place(s, -1);
     }
     for (Cell const s : seeds) {
@@ -174,28 +243,34 @@ ForestGrowth::ForestGrowth(Mask const& region, std::vector<Cell> const& seeds, s
     find_start_cells();
 }
 
-template <class Visit> bool ForestGrowth::all_near(Cell c, Visit visit) const {
-    std::int64_t const reach = 2 * step_;
-    bool all = true;
+std::vector<std::int32_t> const& ForestGrowth::near(Cell c) {
+    found_.clear();
     cells_around(first_.grid(), {c.col / step_, c.row / step_}, 2, [&](Cell block) {
-        for (std::int32_t p = first_[block]; all && p >= 0; p = next_[p]) {
-            if (squared_cells(particles_[p], c) < reach * reach) {
-                all = visit(p);
+        for (std::int32_t p = first_[block]; p >= 0; p = next_[p]) {
+            if (squared_cells(particles_[p], c) < 4 * step_ * step_) {
+                found_.push_back(p);
             }
         }
     });
-    return all;
+    return found_;
+}
+
+std::int32_t ForestGrowth::nearest_of(std::vector<std::int32_t> const& near, Cell c) const {
+    return *std::ranges::min_element(near, {}, [&](std::int32_t p) {
+        return std::pair{squared_cells(particles_[p], c), p};
+    });
 }
 
 Cell ForestGrowth::draw_start(RandomStream& random) const {
-    auto const k = static_cast<std::size_t>(random.real() * static_cast<double>(start_cells_.size()));
-    return start_cells_[k];
+    auto const k = static_cast<std::size_t>(random.real() * static_cast<double>(starts_));
+    Cell const c = state_.grid().at(start_cells_[k]);
+    return {c.col - 1, c.row - 1};
 }
 
 void ForestGrowth::add(Cell c) {
-    place(c, nearest_[c]);
+    place(c, nearest_of(near(c), c));
     look_around(c);
-    if (++added_since_search_ > static_cast<std::int64_t>(start_cells_.size()) / (8 * step_ * step_) + 64) {
+    if (++added_since_search_ > static_cast<std::int64_t>(starts_) / (8 * step_ * step_) + 64) {
         find_start_cells();
     }
 }
@@ -207,78 +282,83 @@ void ForestGrowth::place(Cell c, std::int64_t parent) {
     std::int32_t& first = first_[Cell{c.col / step_, c.row / step_}];
     next_.push_back(first);
     first = number;
-    auto const inside = [&](Cell at) { return squared_cells(at, c) < step_ * step_; };
-    cells_around(grid_, c, step_ + 1, [&](Cell at) {
-        std::int64_t const far = squared_cells(at, c);
-        if (far > (step_ + 1) * (step_ + 1)) {
-            return;
-        }
-        std::int32_t& nearest = nearest_[at];
-        if (nearest < 0 || far < squared_cells(at, particles_[nearest])) {
-            nearest = number;
-        }
-        if (!inside(at)) {
-            return;
-        }
-        set(at, State::closed);
-        // Walkers come from outside: they meet the rim first.
-        bool const rim = std::any_of(std::begin(neighbour_offsets), std::end(neighbour_offsets),
-                                     [&](Site o) { return !inside(moved(at, o)); });
-        if (rim && land_[at] != 0) {
+    std::int64_t const south = std::min(c.row + disc_.reach(), grid_.height - 1);
+    for (std::int64_t row = std::max<std::int64_t>(c.row - disc_.reach(), 0); row <= south; ++row) {
+        std::int64_t const reach = disc_.reach(row - c.row);
+        std::int64_t const west = std::max<std::int64_t>(c.col - reach, 0);
+        std::int64_t const end = std::min(c.col + reach + 1, grid_.width);
+        auto const states =
+            state_.row(row + 1).subspan(static_cast<std::size_t>(west + 1), static_cast<std::size_t>(end - west));
+        open_cells_ -= std::ranges::count(states, State::open);
+        std::ranges::fill(states, State::closed);
+    }
+    // Walkers come from outside: they meet the rim first.
+    for (Site const o : disc_.rim()) {
+        Cell const at = moved(c, o);
+        if (grid_.contains(at) && walk_.inside(at)) {
             walk_.occupy(at);
         }
-    });
+    }
 }
 
 void ForestGrowth::look_around(Cell c) {
     std::int64_t const new_reach = (step_ + 1) * (step_ + 1);
     cells_around(grid_, c, 2 * step_, [&](Cell at) {
-        bool const begins = state_[at] == State::far && squared_cells(at, c) <= new_reach && walk_.beside_a_tree(at);
-        if (begins || state_[at] == State::open) {
-            set(at, may_hold(at) ? State::open : State::closed);
+        State const state = state_[framed(at)];
+        bool const begins = state != State::closed && squared_cells(at, c) <= new_reach && walk_.beside_a_tree(at);
+        if (begins || state == State::open) {
+            open_or_close(at);
         }
     });
 }
 
-bool ForestGrowth::may_hold(Cell c) const {
-    std::int32_t const on = nearest_[c];
+void ForestGrowth::open_or_close(Cell c) {
+    Cell const place = framed(c);
+    State& state = state_[place];
+    bool const opens = may_hold(c);
+    if (opens && state != State::open) {
+        opened_.push_back(static_cast<FramedIndex>(state_.grid().index(place)));
+        if (state != State::start) {
+            added_since_search_ = grid_.cells(); // walkers come from a pocket without an exit
+        }
+    }
+    open_cells_ += static_cast<int>(opens) - static_cast<int>(state == State::open);
+    state = opens ? State::open : State::closed;
+}
+
+bool ForestGrowth::may_hold(Cell c) {
+    std::vector<std::int32_t> const& around = near(c);
+    std::int32_t const on = nearest_of(around, c);
     std::int64_t const step2 = step_ * step_;
-    return all_near(c, [&](std::int32_t p) {
+    return std::ranges::all_of(around, [&](std::int32_t p) {
         std::int64_t const far = squared_cells(particles_[p], c);
         return p == on || (p == parents_[on] && 2 * far >= 5 * step2) || (parents_[p] == on && 2 * far >= 3 * step2);
     });
 }
 
-void ForestGrowth::set(Cell c, State state) {
-    open_cells_ += static_cast<int>(state == State::open) - static_cast<int>(state_[c] == State::open);
-    if (state == State::open && state_[c] != State::open) {
-        opened_.push_back(c);
-        if (is_start_[c] == 0) {
-            added_since_search_ = grid_.cells(); // walkers come from a pocket without an exit
-        }
-    }
-    state_[c] = state;
-}
-
 /// Walkers from elsewhere would never stick and are not released. In a nearly full region they would be the majority.
 void ForestGrowth::find_start_cells() {
-    for (Cell const c : start_cells_) {
-        is_start_[c] = 0;
+    for (State& state : state_.values()) {
+        state = state == State::start ? State::far : state;
     }
-    std::erase_if(opened_, [&](Cell c) { return state_[c] != State::open; });
-    start_cells_ = opened_;
-    for (Cell const c : start_cells_) {
-        is_start_[c] = 1;
-    }
-    for (std::size_t k = 0; k < start_cells_.size(); ++k) {
-        for (Site const o : neighbour_offsets) {
-            Cell const next = moved(start_cells_[k], o);
-            if (grid_.contains(next) && state_[next] == State::far && is_start_[next] == 0) {
-                is_start_[next] = 1;
-                start_cells_.push_back(next);
-            }
+    std::erase_if(opened_, [&](FramedIndex i) { return state_[i] != State::open; });
+    std::ranges::copy(opened_, start_cells_.begin());
+    starts_ = opened_.size();
+    auto const width = static_cast<std::size_t>(state_.width());
+    std::span<State> const states = state_.values();
+    std::span<FramedIndex> const starts = start_cells_;
+    std::size_t count = opened_.size();
+    for (std::size_t k = 0; k < count; ++k) {
+        std::size_t const at = starts[k];
+        // Without branches, which the processor would foresee badly.
+        for (std::size_t const next : {at - width, at + 1, at + width, at - 1}) {
+            bool const far = states[next] == State::far;
+            starts[count] = static_cast<FramedIndex>(next);
+            states[next] = far ? State::start : states[next];
+            count += static_cast<std::size_t>(far);
         }
     }
+    starts_ = count;
     added_since_search_ = 0;
 }
 

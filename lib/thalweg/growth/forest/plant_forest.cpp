@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -103,25 +104,6 @@ private:
     std::vector<Mouth> mouths_;
 };
 
-/// The 4-connected cells of a mask around a cell; removes them from it.
-std::vector<Cell> take_piece(Cell from, Mask& left, Run const& run) {
-    std::vector<Cell> piece{from};
-    left[from] = 0;
-    for (std::size_t k = 0; k < piece.size(); ++k) {
-        if (k % (1U << 18U) == 0) {
-            run.check();
-        }
-        for (Site const o : neighbour_offsets) {
-            Cell const next{piece[k].col + o.x, piece[k].row + o.y};
-            if (left.grid().contains(next) && left[next] != 0) {
-                left[next] = 0;
-                piece.push_back(next);
-            }
-        }
-    }
-    return piece;
-}
-
 Finding finding(FindingKind kind, Grid const& grid, Cell c, double amount, std::string text) {
     return {kind, 0, grid.centre(c), amount, fmt::format("{} ({}, {})", text, c.col, c.row)};
 }
@@ -131,12 +113,9 @@ void check(Mask const& land, std::vector<Cell> const& coast, std::vector<Cell> c
     constexpr std::int64_t least_step = 4; // with less, rivers of two trees could touch between their seeds and outlets
     require_in("growth.plant_forest", "step_cells", params.step_cells, Range::between(least_step, 100));
     refuse_if<BadInput>(coast.empty(), "growth.plant_forest: there is no land, all cells are sea");
-    Mask on_coast(land.grid(), 0);
-    for (Cell const c : coast) {
-        on_coast[c] = 1;
-    }
+    auto const place = [&](Cell c) { return land.grid().index(c); };
     for (Cell const c : outlets) {
-        refuse_if<BadInput>(!land.grid().contains(c) || on_coast[c] == 0,
+        refuse_if<BadInput>(!land.grid().contains(c) || !std::ranges::binary_search(coast, place(c), {}, place),
                             "growth.plant_forest: the outlet ({}, {}) lies off the land's coast", c.col, c.row);
     }
 }
@@ -146,9 +125,7 @@ void add_missing(Mask const& inland, std::vector<Cell> const& coast, Mouths& mou
                  Run const& run) {
     Mask left = inland;
     for (Mouth const& mouth : mouths.all()) {
-        if (left[mouth.seed] != 0) {
-            take_piece(mouth.seed, left, run);
-        }
+        take_piece(mouth.seed, left, run);
     }
     for (Cell const c : coast) {
         std::optional<Cell> const seed = mouths.seed_for(c);
@@ -164,14 +141,12 @@ void add_missing(Mask const& inland, std::vector<Cell> const& coast, Mouths& mou
 void note_dry_land(Mask const& land, Mouths const& mouths, std::vector<Finding>& notes, Run const& run) {
     Mask left = land;
     for (Mouth const& mouth : mouths.all()) {
-        if (left[mouth.outlet] != 0) {
-            take_piece(mouth.outlet, left, run);
-        }
+        take_piece(mouth.outlet, left, run);
     }
     for (std::int64_t i = 0; i < land.cells(); ++i) {
         if (left[i] != 0) {
             Cell const c = land.grid().at(i);
-            auto const size = static_cast<double>(take_piece(c, left, run).size());
+            auto const size = static_cast<double>(take_piece(c, left, run));
             notes.push_back(finding("dry_land", land.grid(), c, size,
                                     fmt::format("a piece of land of {} cells has no room for a river, at cell", size)));
         }
@@ -214,6 +189,30 @@ NetworkDraft as_network(GrownForest const& forest, Grid const& grid, std::vector
     return network;
 }
 
+/// Selects the outlets that get a tree, adds missing ones, and notes land that has none.
+std::vector<Mouth> mouths_of(Mask const& land, Mask const& inland, std::vector<Cell> const& coast,
+                             std::vector<Cell> const& outlets, std::int64_t step, std::vector<Finding>& notes,
+                             Run const& run) {
+    Mouths mouths(land, inland, step);
+    for (Cell const c : outlets) {
+        if (!mouths.add(c)) {
+            notes.push_back(finding("crowded_outlet", land.grid(), c, 0.0,
+                                    "an outlet was left out, with no room for its river between others or coasts, at "
+                                    "cell"));
+        }
+    }
+    run.check();
+    add_missing(inland, coast, mouths, notes, run);
+    run.check();
+    note_dry_land(land, mouths, notes, run);
+    if (mouths.all().empty()) {
+        throw BadInput(fmt::format("growth.plant_forest: there is no room for a river: no cell is {} cells away "
+                                   "from the sea; take smaller cells or shorter steps",
+                                   inland_distance(step)));
+    }
+    return mouths.all();
+}
+
 } // namespace
 
 PlantedForest plant_forest(Mask const& land, std::vector<Cell> const& outlets, ForestParams const& params,
@@ -223,31 +222,15 @@ PlantedForest plant_forest(Mask const& land, std::vector<Cell> const& outlets, F
     run.check();
     Mask const inland = inland_of(land, params.step_cells);
     run.check();
-    Mouths mouths(land, inland, params.step_cells);
     PlantedForest planted;
-    for (Cell const c : outlets) {
-        if (!mouths.add(c)) {
-            planted.notes.push_back(
-                finding("crowded_outlet", land.grid(), c, 0.0,
-                        "an outlet was left out, with no room for its river between others or coasts, at cell"));
-        }
-    }
-    run.check();
-    add_missing(inland, coast, mouths, planted.notes, run);
-    run.check();
-    note_dry_land(land, mouths, planted.notes, run);
-    if (mouths.all().empty()) {
-        throw BadInput(fmt::format("growth.plant_forest: there is no room for a river: no cell is {} cells away "
-                                   "from the sea; take smaller cells or shorter steps",
-                                   inland_distance(params.step_cells)));
-    }
+    std::vector<Mouth> const mouths = mouths_of(land, inland, coast, outlets, params.step_cells, planted.notes, run);
     std::vector<Cell> seeds;
-    for (Mouth const& mouth : mouths.all()) {
+    for (Mouth const& mouth : mouths) {
         seeds.push_back(mouth.seed);
     }
     run.check();
     GrownForest const forest = grow_forest(inland, seeds, params, run);
-    planted.network = as_network(forest, land.grid(), mouths.all());
+    planted.network = as_network(forest, land.grid(), mouths);
     planted.outlets = static_cast<std::int64_t>(seeds.size());
     planted.particles = static_cast<std::int64_t>(forest.cells.size());
     planted.walkers = forest.walkers;

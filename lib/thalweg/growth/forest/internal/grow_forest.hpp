@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+#include <iterator>
 #include <vector>
 
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/memory.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/growth/dla/internal/walk.hpp>
 
@@ -55,6 +59,28 @@ private:
     ExitLaw law_;
 };
 
+/// The cells nearer to a cell than a radius.
+class Disc {
+public:
+    /// \param radius [cells] > 0
+    explicit Disc(std::int64_t radius);
+
+    std::int64_t reach() const { return std::ssize(reach_) - 1; } ///< [cells] rows on either side
+    /// Columns on either side in a row this far from the middle; -1: none.
+    std::int64_t reach(std::int64_t row) const {
+        return std::abs(row) < std::ssize(reach_) ? reach_[static_cast<std::size_t>(std::abs(row))] : -1;
+    }
+    std::vector<Site> const& rim() const { return rim_; } ///< those with a neighbour that is not in it
+
+private:
+    std::vector<std::int64_t> reach_;
+    std::vector<Site> rim_;
+};
+
+/// Removes the 4-connected cells around one of them from a mask.
+/// \return their number
+std::int64_t take_piece(Cell from, Mask& left, Run const& run);
+
 /// The trees of grow_forest during growth, and the cells at which they can grow.
 class ForestGrowth {
 public:
@@ -66,9 +92,9 @@ public:
     std::vector<std::int64_t> const& parents() const { return parents_; }
     std::int64_t cells() const { return cells_; }           ///< cells of the region that walkers reach
     std::int64_t open_cells() const { return open_cells_; } ///< cells that may still hold a particle
-    bool open(Cell c) const { return state_[c] == State::open; }
+    bool open(Cell c) const { return state_[framed(c)] == State::open; }
     /// Whether a walker that starts there can stick.
-    bool free(Cell c) const { return state_[c] != State::closed; }
+    bool free(Cell c) const { return state_[framed(c)] != State::closed; }
 
     /// Draws a start cell, all equally likely, from those with a path to an open cell.
     Cell draw_start(RandomStream& random) const;
@@ -79,34 +105,39 @@ public:
 private:
     enum class State : std::uint8_t {
         far,   ///< not beside a tree
+        start, ///< the same, and a walker from there could reach an open cell when that was last looked up
         open,  ///< beside a tree, may hold a particle
         closed ///< in a tree's reach, or beside one where no particle may ever be; or outside the region
     };
+    using FramedIndex = std::uint32_t; ///< of a cell in state_
 
+    static Cell framed(Cell c) { return {c.col + 1, c.row + 1}; }
     void place(Cell c, std::int64_t parent);
     void look_around(Cell c);
-    bool may_hold(Cell c) const;
-    void set(Cell c, State state);
+    void open_or_close(Cell c);
+    bool may_hold(Cell c);
     void find_start_cells();
-    /// Calls visit(particle) for particles less than two steps away until it returns false; returns whether it never
-    /// did.
-    template <class Visit> bool all_near(Cell c, Visit visit) const;
+    /// Particles less than two steps away; the list lasts until the next call.
+    std::vector<std::int32_t> const& near(Cell c);
+    /// The nearest of these particles; of several the first that came.
+    std::int32_t nearest_of(std::vector<std::int32_t> const& near, Cell c) const;
 
     Grid grid_;
     std::int64_t step_;
-    Mask land_; ///< cells that walkers reach
+    Disc disc_;
     RegionWalk walk_;
     std::int64_t cells_ = 0;
     std::vector<Cell> particles_;
     std::vector<std::int64_t> parents_;
-    Raster<std::int32_t> nearest_;   ///< by cell: the nearest particle, within s + 1; -1: none
-    Raster<std::int32_t> first_;     ///< by block of s x s cells: its last particle; -1: none
-    std::vector<std::int32_t> next_; ///< by particle: the previous one in its block
-    Raster<State> state_;
+    Raster<std::int32_t> first_;      ///< by block of s x s cells: its last particle; -1: none
+    std::vector<std::int32_t> next_;  ///< by particle: the previous one in its block
+    std::vector<std::int32_t> found_; ///< what near() found
+    Raster<State> state_;             ///< in a frame of closed cells
     std::int64_t open_cells_ = 0;
-    std::vector<Cell> opened_;            ///< every open cell, and some that are no longer open
-    std::vector<Cell> start_cells_;       ///< cells from which a walker can reach an open cell
-    Mask is_start_;                       ///< 1: in start_cells_
+    std::vector<FramedIndex> opened_; ///< every open cell, and some that are no longer open
+    /// Cells from which a walker can reach an open cell, nearest first; room for all of them and one more.
+    std::vector<FramedIndex, LargePages<FramedIndex>> start_cells_;
+    std::size_t starts_ = 0;              ///< their number
     std::int64_t added_since_search_ = 0; ///< particles added since start_cells_ was computed
 };
 
