@@ -133,6 +133,46 @@ private:
     TiledBytes counts_{TiledBytes::tile};
 };
 
+/// Grows all of a cluster but its parents.
+/// \return by particle: the direction of its parent
+std::vector<std::uint8_t> grow(DlaParams const& params, Cluster& cluster, Run const& run) {
+    std::vector<std::uint8_t> direction;
+    Walk walk;
+    Gate gate(params);
+    auto const add = [&](Site site, std::uint8_t parent) {
+        walk.occupy(site);
+        gate.reach(walk.half());
+        cluster.cells.push_back({site.x, site.y});
+        direction.push_back(parent);
+    };
+    auto const size = [&] { return static_cast<std::int64_t>(cluster.cells.size()); };
+    auto const wide = [&] { return params.max_radius > 0 && walk.radius() >= static_cast<double>(params.max_radius); };
+
+    add({0, 0}, no_parent);
+    std::int64_t arrivals = 0;
+    while (size() < params.particles && !wide()) {
+        Walker w = walker(params.seed, cluster.walkers++);
+        walk.release(w);
+        for (;;) {
+            unsigned const mask = walk.approach(w);
+            if (++arrivals % 4096 == 0) {
+                run.at(static_cast<double>(size()) / static_cast<double>(params.particles), "grow");
+            }
+            Fate const fate = gate.arrive(w, mask);
+            if (fate == Fate::sticks) {
+                add(w.at, pick(mask, w.random));
+            }
+            if (fate != Fate::walks_on) {
+                break;
+            }
+            walk.step(w);
+        }
+    }
+    cluster.radius = walk.radius();
+    cluster.stop = wide() ? GrowthStop::radius : GrowthStop::particles;
+    return direction;
+}
+
 /// The share of an arm that must lie in its direction's quadrant, in quarters.
 constexpr std::int64_t of_four = 3;
 
@@ -238,40 +278,7 @@ void require_growth(DlaParams const& params) {
 Cluster grow_dla(DlaParams const& params, Run const& run) {
     require_growth(params);
     Cluster cluster;
-    std::vector<std::uint8_t> direction;
-    Walk walk;
-    Gate gate(params);
-    auto const add = [&](Site site, std::uint8_t parent) {
-        walk.occupy(site);
-        gate.reach(walk.half());
-        cluster.cells.push_back({site.x, site.y});
-        direction.push_back(parent);
-    };
-    auto const size = [&] { return static_cast<std::int64_t>(cluster.cells.size()); };
-    auto const wide = [&] { return params.max_radius > 0 && walk.radius() >= static_cast<double>(params.max_radius); };
-
-    add({0, 0}, no_parent);
-    std::int64_t arrivals = 0;
-    while (size() < params.particles && !wide()) {
-        Walker w = walker(params.seed, cluster.walkers++);
-        walk.release(w);
-        for (;;) {
-            unsigned const mask = walk.approach(w);
-            if (++arrivals % 4096 == 0) {
-                run.at(static_cast<double>(size()) / static_cast<double>(params.particles), "grow");
-            }
-            Fate const fate = gate.arrive(w, mask);
-            if (fate == Fate::sticks) {
-                add(w.at, pick(mask, w.random));
-            }
-            if (fate != Fate::walks_on) {
-                break;
-            }
-            walk.step(w);
-        }
-    }
-    cluster.radius = walk.radius();
-    cluster.stop = wide() ? GrowthStop::radius : GrowthStop::particles;
+    std::vector<std::uint8_t> const direction = grow(params, cluster, run); // the walk's memory is free again
     cluster.parent = find_parents(cluster.cells, direction);
     return cluster;
 }

@@ -144,14 +144,12 @@ void FreeSquares::occupy(Site site) {
 }
 
 void FreeSquares::reach(std::int32_t radius) {
-    std::int32_t wanted = half();
     // The finest level is read up to two blocks from an occupied one.
-    while (wanted < radius + 48) {
-        wanted *= 2;
-    }
-    if (wanted == half()) {
+    if (radius + 48 <= half()) {
         return;
     }
+    // By a multiple of 128 the blocks of 256 sites stay where they are.
+    std::int32_t const wanted = (std::max(radius + 48, half() + half() / 4) + 127) / 128 * 128;
     auto const shift = static_cast<std::size_t>(2 * (wanted - half()) / 16);
     Blocks const before = std::move(blocks_);
     near_.widen(wanted);

@@ -91,7 +91,12 @@ public:
         TiledBytes wider(half);
         auto const shift = static_cast<std::size_t>((half - half_) / tile);
         for (std::size_t row = 0; row < across_; ++row) {
-            std::copy_n(tile_at(0, row), across_ * tile * tile, wider.tile_at(shift, row + shift));
+            for (std::size_t col = 0; col < across_; ++col) {
+                std::uint8_t const* const from = tile_at(col, row);
+                if (std::any_of(from, from + sites, [](std::uint8_t b) { return b != 0; })) {
+                    std::copy_n(from, sites, wider.tile_at(col + shift, row + shift));
+                }
+            }
         }
         *this = std::move(wider);
     }
