@@ -182,6 +182,35 @@ TEST(GrowForest, a_longer_growth_continues_a_shorter) {
     EXPECT_GT(whole.cells.size(), 200U);
 }
 
+// Laws: every cell of grid and frame has a byte of its own; neighbours and the eight cells of a row are where cells
+// say.
+TEST(CellTiles, cells_and_indices_are_one_to_one) {
+    enum class Byte : std::uint8_t { empty, full };
+    for (auto const& [width, height] : {std::pair{1, 1}, {6, 7}, {7, 6}, {14, 15}, {40, 3}, {3, 40}}) {
+        Grid const grid = frame(width, height);
+        CellTiles<Byte> tiles(grid, Byte::empty);
+        for (std::int64_t row = -1; row <= height; ++row) {
+            for (std::int64_t col = -1; col <= width; ++col) {
+                Cell const c{col, row};
+                ASSERT_EQ(tiles.cell(tiles.index(c)), c);
+                ASSERT_EQ(tiles[c], Byte::empty);
+                tiles[c] = Byte::full;
+                Cell const first{CellTiles<Byte>::first_of_eight(col), row};
+                ASSERT_TRUE(first.col <= col && col < first.col + 8);
+                ASSERT_NE(tiles.eight(first), 0U);
+                if (grid.contains(c)) {
+                    auto const beside = plain_forest::neighbours(c);
+                    auto const found = tiles.neighbours(tiles.index(c));
+                    for (std::size_t k = 0; k < 4; ++k) {
+                        ASSERT_EQ(tiles.cell(found[k]), beside[k]);
+                    }
+                }
+            }
+        }
+        ASSERT_EQ(std::ranges::count(tiles.all(), Byte::full), (width + 2) * (height + 2));
+    }
+}
+
 // Law: on trees that do not grow, walkers by jumps and walkers by unit steps arrive alike, in a region with corners and
 // an islet; the test would see it if one in twenty were displaced.
 TEST(RegionWalk, arrivals_have_the_distribution_of_unit_steps) {

@@ -160,13 +160,6 @@ Mask reached_from(std::vector<Cell> const& seeds, Mask const& region, Run const&
     return left;
 }
 
-Grid frame_of(Grid const& grid) {
-    Grid frame;
-    frame.width = grid.width + 2;
-    frame.height = grid.height + 2;
-    return frame;
-}
-
 Grid blocks_of(Grid const& grid, std::int64_t side) {
     Grid blocks;
     blocks.width = (grid.width + side - 1) / side;
@@ -178,7 +171,7 @@ constexpr std::uint64_t forest_stage = 0x666f726573743031; // "forest01"
 
 void check(Mask const& region, std::vector<Cell> const& seeds, ForestParams const& params) {
     constexpr std::int64_t longest = 1 << 20;
-    constexpr std::int64_t most_cells = 4'000'000'000; // their framed indices have 32 bits
+    constexpr std::int64_t most_cells = 4'000'000'000; // indices in tiles have 32 bits
     require_in("growth.grow_forest", "step_cells", params.step_cells, Range::between(1, 100));
     refuse_if<BadParameter>(params.particles < 0,
                             "growth.grow_forest: particles is {}, it must be at least 1, or 0 for all that find room",
@@ -220,12 +213,12 @@ private:
 
 ForestGrowth::ForestGrowth(Mask const& region, std::vector<Cell> const& seeds, std::int64_t step, Run const& run)
     : grid_(region.grid()), step_(step), disc_(step), walk_(reached_from(seeds, region, run)),
-      first_(blocks_of(grid_, step), -1), state_(frame_of(grid_), State::closed) {
+      first_(blocks_of(grid_, step), -1), state_(grid_, State::closed) {
     run.check();
     for (std::int64_t row = 0; row < grid_.height; ++row) {
         for (std::int64_t col = 0; col < grid_.width; ++col) {
             if (walk_.inside({col, row})) {
-                state_[framed({col, row})] = State::far;
+                state_[Cell{col, row}] = State::far;
                 ++cells_;
             }
         }
@@ -263,8 +256,7 @@ std::int32_t ForestGrowth::nearest_of(std::vector<std::int32_t> const& near, Cel
 
 Cell ForestGrowth::draw_start(RandomStream& random) const {
     auto const k = static_cast<std::size_t>(random.real() * static_cast<double>(starts_));
-    Cell const c = state_.grid().at(start_cells_[k]);
-    return {c.col - 1, c.row - 1};
+    return state_.cell(start_cells_[k]);
 }
 
 void ForestGrowth::add(Cell c) {
@@ -287,10 +279,11 @@ void ForestGrowth::place(Cell c, std::int64_t parent) {
         std::int64_t const reach = disc_.reach(row - c.row);
         std::int64_t const west = std::max<std::int64_t>(c.col - reach, 0);
         std::int64_t const end = std::min(c.col + reach + 1, grid_.width);
-        auto const states =
-            state_.row(row + 1).subspan(static_cast<std::size_t>(west + 1), static_cast<std::size_t>(end - west));
-        open_cells_ -= std::ranges::count(states, State::open);
-        std::ranges::fill(states, State::closed);
+        for (std::int64_t col = west; col < end; ++col) {
+            State& state = state_[Cell{col, row}];
+            open_cells_ -= static_cast<int>(state == State::open);
+            state = State::closed;
+        }
     }
     // Walkers come from outside: they meet the rim first.
     for (Site const o : disc_.rim()) {
@@ -302,22 +295,41 @@ void ForestGrowth::place(Cell c, std::int64_t parent) {
 }
 
 void ForestGrowth::look_around(Cell c) {
-    std::int64_t const new_reach = (step_ + 1) * (step_ + 1);
-    cells_around(grid_, c, 2 * step_, [&](Cell at) {
-        State const state = state_[framed(at)];
-        bool const begins = state != State::closed && squared_cells(at, c) <= new_reach && walk_.beside_a_tree(at);
+    std::int64_t const new_reach = step_ + 1;
+    auto const look_at = [&](Cell at) {
+        State const state = state_[at];
+        bool const begins =
+            state != State::closed && squared_cells(at, c) <= new_reach * new_reach && walk_.beside_a_tree(at);
         if (begins || state == State::open) {
             open_or_close(at);
         }
-    });
+    };
+    std::int64_t const south = std::min(c.row + 2 * step_, grid_.height - 1);
+    std::int64_t const west = std::max<std::int64_t>(c.col - 2 * step_, 0);
+    std::int64_t const east = std::min(c.col + 2 * step_, grid_.width - 1);
+    for (std::int64_t row = std::max<std::int64_t>(c.row - 2 * step_, 0); row <= south; ++row) {
+        bool const new_row = std::abs(row - c.row) <= new_reach;
+        for (std::int64_t first = state_.first_of_eight(west); first <= east; first += 8) {
+            std::uint64_t const states = state_.eight({first, row});
+            bool const is_new = new_row && first <= c.col + new_reach && first + 7 >= c.col - new_reach;
+            constexpr std::uint64_t last_bits = 0x0101010101010101;
+            static_assert(static_cast<int>(State::open) == 3 && static_cast<int>(State::start) == 2);
+            bool const some_open = (states & states >> 1 & last_bits) != 0;
+            if (some_open || (is_new && states != 0)) {
+                for (std::int64_t col = std::max(first, west); col <= std::min(first + 7, east); ++col) {
+                    look_at({col, row});
+                }
+            }
+        }
+    }
 }
 
 void ForestGrowth::open_or_close(Cell c) {
-    Cell const place = framed(c);
-    State& state = state_[place];
+    Index const at = state_.index(c);
+    State& state = state_[at];
     bool const opens = may_hold(c);
     if (opens && state != State::open) {
-        opened_.push_back(static_cast<FramedIndex>(state_.grid().index(place)));
+        opened_.push_back(at);
         if (state != State::start) {
             added_since_search_ = grid_.cells(); // walkers come from a pocket without an exit
         }
@@ -338,23 +350,20 @@ bool ForestGrowth::may_hold(Cell c) {
 
 /// Walkers from elsewhere would never stick and are not released. In a nearly full region they would be the majority.
 void ForestGrowth::find_start_cells() {
-    for (State& state : state_.values()) {
+    for (State& state : state_.all()) {
         state = state == State::start ? State::far : state;
     }
-    std::erase_if(opened_, [&](FramedIndex i) { return state_[i] != State::open; });
+    std::erase_if(opened_, [&](Index i) { return state_[i] != State::open; });
     std::ranges::copy(opened_, start_cells_.begin());
-    starts_ = opened_.size();
-    auto const width = static_cast<std::size_t>(state_.width());
-    std::span<State> const states = state_.values();
-    std::span<FramedIndex> const starts = start_cells_;
+    std::span<Index> const starts = start_cells_;
     std::size_t count = opened_.size();
     for (std::size_t k = 0; k < count; ++k) {
-        std::size_t const at = starts[k];
         // Without branches, which the processor would foresee badly.
-        for (std::size_t const next : {at - width, at + 1, at + width, at - 1}) {
-            bool const far = states[next] == State::far;
-            starts[count] = static_cast<FramedIndex>(next);
-            states[next] = far ? State::start : states[next];
+        for (Index const next : state_.neighbours(starts[k])) {
+            State& state = state_[next];
+            bool const far = state == State::far;
+            starts[count] = next;
+            state = far ? State::start : state;
             count += static_cast<std::size_t>(far);
         }
     }

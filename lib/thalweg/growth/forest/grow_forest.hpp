@@ -27,7 +27,7 @@
 // on those before it.
 // Not for: one large basin with a main valley (grow_dla, grow_tokunaga): trees of a forest compete,
 // so a basin is as large as its neighbours allow. Land narrower than about s + 5 cells gets no
-// river from plant_forest. A region has at most 2^20 cells a side.
+// river from plant_forest. A region has at most 2^20 cells a side, 4e9 in all.
 // Example:
 //     PlantedForest const grown = plant_forest(land, outlets, {.step_cells = 6, .visits = 2});
 //     StreamNetwork const& rivers = grown.network;     // one tree an outlet

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <iterator>
+#include <span>
 #include <vector>
 
 #include <thalweg/core/numbers/random.hpp>
@@ -77,6 +80,66 @@ private:
     std::vector<Site> rim_;
 };
 
+/// One byte a cell, in tiles of 8 x 8 cells that fill a cache line each: what spreads from cell to cell in any
+/// direction finds most neighbours at hand. Around the grid is a frame of one cell at least.
+template <class Byte> class CellTiles {
+public:
+    using Index = std::uint32_t;
+    static constexpr std::int64_t side = 8;
+
+    CellTiles(Grid const& grid, Byte fill)
+        : across_((grid.width + 1) / side + 1),
+          bytes_(static_cast<std::size_t>(across_ * ((grid.height + 1) / side + 1) * side * side), fill) {
+        static_assert(sizeof(Byte) == 1);
+        std::int64_t const to_row = (across_ - 1) * side * side; // beyond the cells of this tile
+        for (std::int64_t i = 0; i < side * side; ++i) {
+            bool const north = i < side;
+            bool const south = i >= side * (side - 1);
+            bool const west = i % side == 0;
+            bool const east = i % side == side - 1;
+            steps_[i] = {static_cast<Index>(north ? -side - to_row : -side),
+                         static_cast<Index>(east ? side * (side - 1) + 1 : 1),
+                         static_cast<Index>(south ? side + to_row : side),
+                         static_cast<Index>(west ? -side * (side - 1) - 1 : -1)};
+        }
+    }
+
+    /// \param c a cell of the grid or its frame
+    Index index(Cell c) const {
+        std::int64_t const col = c.col + 1;
+        std::int64_t const row = c.row + 1;
+        return static_cast<Index>(((row / side * across_ + col / side) * side + row % side) * side + col % side);
+    }
+    Cell cell(Index i) const {
+        std::int64_t const tile = i / (side * side);
+        return {tile % across_ * side + i % side - 1, tile / across_ * side + i / side % side - 1};
+    }
+    /// Indices of the four neighbours of a cell of the grid, in the order of neighbour_offsets.
+    std::array<Index, 4> neighbours(Index i) const {
+        auto const& steps = steps_[i % (side * side)];
+        return {i + steps[0], i + steps[1], i + steps[2], i + steps[3]};
+    }
+
+    Byte& operator[](Index i) { return bytes_[i]; }
+    Byte& operator[](Cell c) { return bytes_[index(c)]; }
+    Byte operator[](Cell c) const { return bytes_[index(c)]; }
+    std::span<Byte> all() { return bytes_; }
+
+    /// The column at which the eight cells of one row in the tile around this column begin.
+    static std::int64_t first_of_eight(std::int64_t col) { return (col + 1) / side * side - 1; }
+    /// These eight bytes as a word.
+    std::uint64_t eight(Cell first) const {
+        std::uint64_t word = 0;
+        std::memcpy(&word, &bytes_[index(first)], sizeof(word));
+        return word;
+    }
+
+private:
+    std::int64_t across_;
+    std::vector<Byte, LargePages<Byte>> bytes_;
+    std::array<std::array<Index, 4>, side * side> steps_{};
+};
+
 /// Removes the 4-connected cells around one of them from a mask.
 /// \return their number
 std::int64_t take_piece(Cell from, Mask& left, Run const& run);
@@ -92,9 +155,9 @@ public:
     std::vector<std::int64_t> const& parents() const { return parents_; }
     std::int64_t cells() const { return cells_; }           ///< cells of the region that walkers reach
     std::int64_t open_cells() const { return open_cells_; } ///< cells that may still hold a particle
-    bool open(Cell c) const { return state_[framed(c)] == State::open; }
+    bool open(Cell c) const { return state_[c] == State::open; }
     /// Whether a walker that starts there can stick.
-    bool free(Cell c) const { return state_[framed(c)] != State::closed; }
+    bool free(Cell c) const { return state_[c] != State::closed; }
 
     /// Draws a start cell, all equally likely, from those with a path to an open cell.
     Cell draw_start(RandomStream& random) const;
@@ -104,14 +167,13 @@ public:
 
 private:
     enum class State : std::uint8_t {
-        far,   ///< not beside a tree
-        start, ///< the same, and a walker from there could reach an open cell when that was last looked up
-        open,  ///< beside a tree, may hold a particle
-        closed ///< in a tree's reach, or beside one where no particle may ever be; or outside the region
+        closed, ///< in a tree's reach, or beside one where no particle may ever be; or outside the region
+        far,    ///< not beside a tree
+        start,  ///< the same, and a walker from there could reach an open cell when that was last looked up
+        open    ///< beside a tree, may hold a particle
     };
-    using FramedIndex = std::uint32_t; ///< of a cell in state_
+    using Index = CellTiles<State>::Index;
 
-    static Cell framed(Cell c) { return {c.col + 1, c.row + 1}; }
     void place(Cell c, std::int64_t parent);
     void look_around(Cell c);
     void open_or_close(Cell c);
@@ -132,11 +194,11 @@ private:
     Raster<std::int32_t> first_;      ///< by block of s x s cells: its last particle; -1: none
     std::vector<std::int32_t> next_;  ///< by particle: the previous one in its block
     std::vector<std::int32_t> found_; ///< what near() found
-    Raster<State> state_;             ///< in a frame of closed cells
+    CellTiles<State> state_;          ///< the frame is closed
     std::int64_t open_cells_ = 0;
-    std::vector<FramedIndex> opened_; ///< every open cell, and some that are no longer open
+    std::vector<Index> opened_; ///< every open cell, and some that are no longer open
     /// Cells from which a walker can reach an open cell, nearest first; room for all of them and one more.
-    std::vector<FramedIndex, LargePages<FramedIndex>> start_cells_;
+    std::vector<Index, LargePages<Index>> start_cells_;
     std::size_t starts_ = 0;              ///< their number
     std::int64_t added_since_search_ = 0; ///< particles added since start_cells_ was computed
 };
