@@ -144,6 +144,8 @@ py::object text_of(std::string_view bytes);
 // -- From C++ to Python
 // -------------------------------------------------------------------------------------------------
 
+template <class T> py::object give(T value);
+
 /// Shows a value that lives in owner.
 template <class T> py::object show(T const& value, py::handle owner) {
     if constexpr (std::same_as<T, bool> || std::is_arithmetic_v<T>) {
@@ -182,7 +184,11 @@ template <class T> py::object show(T const& value, py::handle owner) {
         if (value.cells() == 0) {
             return py::none();
         }
-        if constexpr (std::is_enum_v<Value>) {
+        if constexpr (std::same_as<Value, std::uint32_t>) { // counts: numpy's unsigned numbers wrap in differences
+            Raster<std::int64_t> counts(value.grid());
+            std::ranges::copy(value.values(), counts.values().begin());
+            return give(std::move(counts));
+        } else if constexpr (std::is_enum_v<Value>) {
             return raster_of(
                 array_of(py::dtype::of<std::uint8_t>(), {value.height(), value.width()}, value.values().data(), owner),
                 value.grid());

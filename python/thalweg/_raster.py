@@ -484,7 +484,7 @@ def to_core(thing: object, dtype: npt.DTypeLike, what: str, frame: _core.Grid | 
     thing : Raster, ndarray, xarray.DataArray, str or path
         Also a masked array, and anything else that numpy takes as an array. A path is read as by io.read_dem.
     dtype : dtype
-        float32, float64, uint8, int32 or int64.
+        float32, float64, uint8, int32, uint32 or int64.
     what : str
         Its name in messages.
     frame : Grid, optional
@@ -604,7 +604,8 @@ def _converted(values: Array, target: np.dtype[Any], what: str) -> Array:
     if values.dtype == target and flags.c_contiguous and flags.aligned:
         return values
     if values.dtype.newbyteorder("=") != target:
-        say(f"{what}: {values.dtype.name} converted to {target.name}")
+        if target != np.uint32 or values.dtype != np.int64:  # counts, which the library shows as int64
+            say(f"{what}: {values.dtype.name} converted to {target.name}")
         if target.kind != "f":
             _require_integers(values, target, what)
     elif not values.dtype.isnative:

@@ -148,6 +148,9 @@ Raster<float> plane(double east, double south) {
 TEST(Route, RefusesNoCellsAndInfiniteHeights) {
     EXPECT_THROW(route(Raster<float>{}), BadInput);
     EXPECT_THROW(route(dem_of(2, {1, -std::numeric_limits<float>::infinity()})), BadInput);
+    constexpr std::int64_t side = 1 << 16;
+    auto const vast = Raster<float>::view_of(frame(side, side), {}, nullptr); // of which nothing is read
+    EXPECT_THROW(route(vast), BadInput);
 }
 
 TEST(Route, OneCellLeaves) {

@@ -21,6 +21,7 @@ public:
     void add(std::int64_t n) { add(static_cast<std::uint64_t>(n)); }
     void add(int n) { add(static_cast<std::int64_t>(n)); }
     void add(std::uint8_t n) { add(static_cast<std::uint64_t>(n)); }
+    void add(std::uint32_t n) { add(static_cast<std::uint64_t>(n)); }
     void add(double x) { add(std::bit_cast<std::uint64_t>(x)); }
     void add(float x) { add(static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(x))); }
     void add(thalweg::Vec2 p) { put(p.x, p.y); }

@@ -335,6 +335,19 @@ class Arguments(unittest.TestCase):
         codes[:] = 6
         self.assertEqual(thalweg.flow.path_down(field, (50.5, 50.5)).size, 1)
 
+    def test_areas_are_shown_as_numbers_with_signs(self):
+        codes = np.full((2, 2), 255, np.uint8)
+        most = 2**32 - 1
+        for kind in (np.int64, np.uint32):
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                areas = thalweg.flow.FlowField(direction=codes, area_cells=np.array([[0, 1], [2, most]], kind)).area_cells
+            self.assertEqual(areas.dtype, np.int64)
+            self.assertEqual(areas.values.tolist(), [[0, 1], [2, most]])
+        for wrong in (-1, most + 1):
+            with self.assertRaises(thalweg.BadInput):
+                thalweg.flow.FlowField(direction=codes, area_cells=np.full((2, 2), wrong, np.int64))
+
     def test_signatures_can_be_read(self):
         left = []
         for module in map(lambda name: getattr(thalweg, name), thalweg._core.MODULES):

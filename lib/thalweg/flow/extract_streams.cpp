@@ -19,7 +19,7 @@ namespace {
 
 /// The cells of rivers in which nodes lie, ascending.
 std::vector<std::int64_t> node_cells(FlowField const& drainage, std::int64_t support, Run const& run) {
-    Raster<std::int64_t> const& area = drainage.area_cells;
+    Raster<CellCount> const& area = drainage.area_cells;
     Raster<std::int8_t> arriving(area.grid());
     for (std::int64_t i = 0; i < area.cells(); ++i) {
         if (i % cells_between_checks == 0) {
@@ -52,6 +52,37 @@ struct Steps {
     /// \return length [cells]
     double cells() const { return static_cast<double>(straight) + static_cast<double>(diagonal) * std::sqrt(2.0); }
 };
+
+/// Finds the greatest key such that the steps from cells with this key or more are long enough.
+/// \param key_of called with the area of a cell; cells with `keys` or more are left out
+/// \param enough [cells]
+/// \param larger steps from cells with areas beyond those with keys; gets those with greater keys
+/// \return `keys`: all steps are too short
+template <class Key>
+std::size_t narrow(FlowField const& drainage, Key key_of, std::size_t keys, double enough, Steps& larger,
+                   Run const& run) {
+    std::vector<Steps> by_key(keys);
+    for (std::int64_t i = 0; i < drainage.area_cells.cells(); ++i) {
+        if (i % cells_between_checks == 0) {
+            run.check();
+        }
+        if (!goes_on(drainage.direction[i])) {
+            continue;
+        }
+        if (std::size_t const key = key_of(drainage.area_cells[i]); key < keys) {
+            by_key[key].add(drainage.direction[i]);
+        }
+    }
+    for (std::size_t key = keys; key-- > 0;) {
+        Steps with = larger;
+        with.add(by_key[key]);
+        if (with.cells() >= enough) {
+            return key;
+        }
+        larger = with;
+    }
+    return keys;
+}
 
 /// Adds the cells that drain into outlets outside any arc to the first arc that ends there, as areas_d8 does.
 void add_outlet_areas(StreamNetwork const& plan, ContributingAreas& areas) {
@@ -128,45 +159,27 @@ ExtractedStreams extract_streams(FlowField const& drainage, Raster<float> const&
 std::int64_t support_for_length(FlowField const& drainage, double length_m, Run const& run) {
     refuse_if<BadParameter>(!(length_m > 0.0) || std::isinf(length_m),
                             "flow.support_for_length: the length is {} m; it must be above 0", length_m);
-    Raster<std::int64_t> const& area = drainage.area_cells;
-    auto const octave_of = [&](std::int64_t cell) {
-        return static_cast<std::size_t>(std::bit_width(static_cast<std::uint64_t>(area[cell]))) - 1;
-    };
-    std::array<Steps, 64> octaves{}; // by the highest bit of the area
-    for (std::int64_t i = 0; i < area.cells(); ++i) {
-        if (i % cells_between_checks == 0) {
-            run.check();
-        }
-        if (goes_on(drainage.direction[i])) {
-            octaves[octave_of(i)].add(drainage.direction[i]);
-        }
-    }
-    double const enough = length_m / area.grid().cell_m;
-    Steps larger; // steps with areas above the octave that contains the support
-    std::size_t octave = octaves.size();
-    for (Steps with = larger; octave-- > 0; larger = with) {
-        with.add(octaves[octave]);
-        if (with.cells() >= enough) {
-            break;
-        }
-    }
-    if (octave >= octaves.size()) {
+    double const enough = length_m / drainage.grid().cell_m;
+    Steps larger;
+    constexpr std::size_t none = 32;
+    std::size_t const octave = narrow(
+        drainage, [](CellCount area) { return static_cast<std::size_t>(std::bit_width(area)) - 1; }, none, enough,
+        larger, run);
+    if (octave == none) {
         return 1;
     }
-    std::vector<std::pair<std::int64_t, Direction>> within;
-    for (std::int64_t i = 0; i < area.cells(); ++i) {
-        if (goes_on(drainage.direction[i]) && octave_of(i) == octave) {
-            within.emplace_back(area[i], drainage.direction[i]);
-        }
-    }
-    std::sort(within.begin(), within.end(), std::greater<>());
-    for (auto const& [support, way] : within) {
-        larger.add(way);
-        if (larger.cells() >= enough) {
-            return support;
-        }
-    }
-    return 1;
+    // Within the octave, by the upper half of its bits, then by the lower.
+    std::size_t const low_bits = octave / 2;
+    std::size_t const high_bits = octave - low_bits;
+    std::size_t const first = std::size_t{1} << high_bits;
+    std::size_t const high =
+        first + narrow(
+                    drainage, [&](CellCount area) { return (std::size_t{area} >> low_bits) - first; }, first, enough,
+                    larger, run);
+    std::size_t const low = narrow(
+        drainage, [&](CellCount area) { return std::size_t{area} - (high << low_bits); }, std::size_t{1} << low_bits,
+        enough, larger, run);
+    return static_cast<std::int64_t>((high << low_bits) + low);
 }
 
 } // namespace thalweg::flow

@@ -14,7 +14,7 @@
 // Idea: Streams begin where enough water has gathered: cells whose area reaches a support are
 // channels, and D8 receivers join them to a forest. Nodes are cells where streams begin, meet or
 // leave, arcs the cells between. support_for_length turns the question round: lengths are counted
-// by octaves of area, and only the octave with the answer is sorted.
+// by octaves of area, then by the areas within the octave with the answer.
 // Source: O'Callaghan and Mark 1984.
 // Cost: O(n) for n cells, and O(s log s) for s cells of streams. One thread.
 // Not for: channel heads, which a constant area misses: they depend on slope and ground. Arcs

@@ -15,6 +15,7 @@
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/core/same_grid.hpp>
+#include <thalweg/flow/internal/cell_count.hpp>
 #include <thalweg/flow/internal/each_downstream.hpp>
 
 namespace thalweg::flow {
@@ -147,7 +148,8 @@ Raster<std::int32_t> codes_of(Raster<Direction> const& direction, DirectionCodes
 FlowField follow(Raster<Direction> const& direction, Run const& run) {
     Grid const& grid = direction.grid();
     refuse_if<BadInput>(grid.cells() == 0, "flow.follow: the directions have no cells");
-    FlowField drainage{direction, Raster<std::int64_t>(grid)};
+    require_countable(grid, "flow.follow");
+    FlowField drainage{direction, Raster<CellCount>(grid)};
     std::int64_t left = 0; // cells whose water has not run on
     each_cell(grid, run, [&](std::int64_t i, Cell cell) {
         Direction const way = direction[i];

@@ -42,7 +42,8 @@ Raster<std::int32_t> codes_of(Raster<Direction> const& direction, DirectionCodes
 /// Makes the flow field of known D8 directions, of whatever program they are.
 /// \param direction by cell
 /// \return with their contributing areas; its depressions are unknown: none
-/// \throws BadInput naming a cell whose direction leads off the grid or into no data, or where water runs in a circle
+/// \throws BadInput naming a cell whose direction leads off the grid or into no data, or where water runs in a circle;
+/// for 2^32 cells or more
 FlowField follow(Raster<Direction> const& direction, Run const& run = {});
 
 /// Sums amounts along the D8 flow paths: rain [m3] gives runoff, ones give the number of cells.

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/flow/route.hpp>
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -10,6 +13,7 @@
 
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/flow/internal/cell_count.hpp>
 #include <thalweg/flow/internal/each_downstream.hpp>
 #include <thalweg/flow/internal/priority_flood.hpp>
 
@@ -46,40 +50,44 @@ void descend(Raster<float> const& level, Sinks const& sinks, Raster<Direction>& 
 
 /// Directs each cell to its steepest lower neighbour, if all cells have one but those where water leaves: then a flood
 /// would raise none and direct none otherwise.
-std::optional<Raster<Direction>> all_downhill(Raster<float> const& land, Sinks const& sinks, Run const& run) {
-    Raster<Direction> direction(land.grid(), Direction::leaves);
-    auto const offsets = d8_offsets(land.grid());
+std::optional<Raster<Direction>> all_downhill(Raster<float> const& dem, Sinks const& sinks, Run const& run) {
+    constexpr std::int64_t rows_between_checks = 16;
+    Grid const& grid = dem.grid();
+    Raster<Direction> direction(grid, Direction::leaves);
+    auto const offsets = d8_offsets(grid);
     std::atomic<bool> drains = true;
-    parallel_ranges(run, land.cells(), cells_between_checks, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t i = begin; i < end && drains.load(std::memory_order_relaxed); ++i) {
-            if (std::isnan(land[i])) {
-                direction[i] = Direction::no_data;
-                continue;
-            }
-            if (contains(sinks, i)) {
-                continue;
-            }
-            direction[i] = steepest_descent(land[i], [&](std::size_t k) { return land[i + offsets[k]]; }).direction;
-            if (direction[i] == Direction::leaves &&
-                std::none_of(offsets.begin(), offsets.end(),
-                             [&](std::int64_t step) { return std::isnan(land[i + step]); })) {
-                drains.store(false, std::memory_order_relaxed);
+    auto const direct = [&](Cell at) {
+        std::int64_t const i = grid.index(at);
+        if (std::isnan(dem[i])) {
+            direction[i] = Direction::no_data;
+        } else if (contains(sinks, i)) {
+            return true;
+        } else if (grid.on_border(at)) {
+            direction[i] = steepest_descent(dem, at).direction;
+        } else {
+            direction[i] = steepest_descent(dem[i], [&](std::size_t k) { return dem[i + offsets[k]]; }).direction;
+            return direction[i] != Direction::leaves ||
+                   std::any_of(offsets.begin(), offsets.end(),
+                               [&](std::int64_t step) { return std::isnan(dem[i + step]); });
+        }
+        return true;
+    };
+    parallel_ranges(run, grid.height, rows_between_checks, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t row = begin; row < end && drains.load(std::memory_order_relaxed); ++row) {
+            run.check();
+            for (std::int64_t col = 0; col < grid.width; ++col) {
+                if (!direct({col, row})) {
+                    drains.store(false, std::memory_order_relaxed);
+                    break;
+                }
             }
         }
     });
     return drains ? std::optional(std::move(direction)) : std::nullopt;
 }
 
-/// Copies the directions of a framed DEM's inner cells.
-void set_directions(FlowField& drainage, Raster<Direction> const& framed_direction) {
-    for (std::int64_t r = 0; r < drainage.direction.height(); ++r) {
-        auto const row = drainage.direction.row(r);
-        auto const ways = framed_direction.row(r + 1).subspan(1, row.size());
-        std::copy(ways.begin(), ways.end(), row.begin());
-    }
-}
-
 void accumulate(FlowField& drainage, Run const& run) {
+    drainage.area_cells = Raster<CellCount>(drainage.grid());
     for (std::int64_t i = 0; i < drainage.area_cells.cells(); ++i) {
         drainage.area_cells[i] = drainage.direction[i] == Direction::no_data ? 0 : 1;
     }
@@ -140,20 +148,59 @@ std::vector<Depression> take_depressions(Raster<float> const& dem, Raster<float>
     return found;
 }
 
-/// Converts indices of cells to the framed DEM; ascending.
-Sinks framed_sinks(Raster<float> const& dem, Grid const& framed, std::vector<std::int64_t> const& sinks) {
-    Sinks cells;
+/// The sinks, ascending.
+Sinks sinks_of(Raster<float> const& dem, std::vector<std::int64_t> sinks) {
     for (std::int64_t const sink : sinks) {
         refuse_if<BadInput>(sink < 0 || sink >= dem.cells() || std::isnan(dem[sink]),
                             "flow.route: the sink in cell {} has no height; give cells of the DEM", sink);
-        Cell const c = dem.grid().at(sink);
+    }
+    std::sort(sinks.begin(), sinks.end());
+    return sinks;
+}
+
+/// Converts indices of cells to the framed DEM, in which they have the same order.
+Sinks framed_sinks(Grid const& grid, Grid const& framed, Sinks const& sinks) {
+    Sinks cells;
+    for (std::int64_t const sink : sinks) {
+        Cell const c = grid.at(sink);
         cells.push_back(framed.index({c.col + 1, c.row + 1}));
     }
-    std::sort(cells.begin(), cells.end());
     return cells;
 }
 
+/// Fills the DEM for the directions of a flow field and its depressions.
+FlowField through_depressions(Raster<float> const& dem, Sinks const& sinks, Run const& run) {
+    Raster<float> level = framed(dem);
+    Sinks const ends = framed_sinks(dem.grid(), level.grid(), sinks);
+    FlowField result;
+    {
+        Raster<Direction> direction = raise_to_spill(level, ends, run);
+        descend(level, ends, direction, run);
+        result.direction = unframed(direction, dem.grid());
+    }
+    CompensatedSum raised_m;
+    for (std::int64_t r = 0; r < dem.height(); ++r) {
+        auto const before = dem.row(r);
+        auto const after = level.row(r + 1).subspan(1, before.size());
+        for (std::size_t c = 0; c < before.size(); ++c) {
+            if (after[c] > before[c]) {
+                ++result.pits;
+                raised_m.add(static_cast<double>(after[c]) - before[c]);
+            }
+        }
+    }
+    result.pit_volume_m3 = raised_m.value() * dem.grid().cell_m * dem.grid().cell_m;
+    result.depressions = take_depressions(dem, level, run);
+    return result;
+}
+
 } // namespace
+
+void require_countable(Grid const& grid, char const* function) {
+    refuse_if<BadInput>(std::cmp_greater(grid.cells(), std::numeric_limits<CellCount>::max()),
+                        "{}: {} x {} cells are 2^32 or more; take larger cells, or parts of the grid", function,
+                        grid.width, grid.height);
+}
 
 FlowField route(Raster<float> const& dem, Run const& run) {
     return route(dem, {}, run);
@@ -162,6 +209,7 @@ FlowField route(Raster<float> const& dem, Run const& run) {
 FlowField route(Raster<float> const& dem, std::vector<std::int64_t> const& sinks, Run const& run) {
     Grid const& grid = dem.grid();
     refuse_if<BadInput>(grid.cells() == 0, "flow.route: the DEM has no cells");
+    require_countable(grid, "flow.route");
     auto const values = dem.values();
     auto const infinite = std::find_if(values.begin(), values.end(), [](float z) { return std::isinf(z); });
     if (infinite != values.end()) {
@@ -170,32 +218,9 @@ FlowField route(Raster<float> const& dem, std::vector<std::int64_t> const& sinks
             fmt::format("flow.route: the height at column {}, row {} is infinite; mark cells without data as NaN",
                         cell.col, cell.row));
     }
-    FlowField result{Raster<Direction>(grid), Raster<std::int64_t>(grid)};
-    {
-        Raster<float> level = framed(dem);
-        Sinks const ends = framed_sinks(dem, level.grid(), sinks);
-        if (auto const downhill = all_downhill(level, ends, run)) {
-            set_directions(result, *downhill);
-            accumulate(result, run);
-            return result;
-        }
-        Raster<Direction> direction = raise_to_spill(level, ends, run);
-        descend(level, ends, direction, run);
-        set_directions(result, direction);
-        CompensatedSum raised_m;
-        for (std::int64_t r = 0; r < grid.height; ++r) {
-            auto const before = dem.row(r);
-            auto const after = level.row(r + 1).subspan(1, before.size());
-            for (std::size_t c = 0; c < before.size(); ++c) {
-                if (after[c] > before[c]) {
-                    ++result.pits;
-                    raised_m.add(static_cast<double>(after[c]) - before[c]);
-                }
-            }
-        }
-        result.pit_volume_m3 = raised_m.value() * grid.cell_m * grid.cell_m;
-        result.depressions = take_depressions(dem, level, run);
-    }
+    Sinks const ends = sinks_of(dem, sinks);
+    auto downhill = all_downhill(dem, ends, run);
+    FlowField result = downhill ? FlowField{*std::move(downhill), {}} : through_depressions(dem, ends, run);
     accumulate(result, run);
     return result;
 }

@@ -40,11 +40,14 @@ struct Depression {
     double volume_m3 = 0.0; ///< to its spill level
 };
 
+/// A number of cells, at most as many as a grid that is drained has: fewer than 2^32.
+using CellCount = std::uint32_t;
+
 /// D8 flow directions and contributing areas of a DEM. Law: directions stay on the grid, do not lead to cells without
 /// data and form no cycle.
 struct FlowField {
     Raster<Direction> direction;
-    Raster<std::int64_t> area_cells;          ///< cells that drain through a cell, itself included; 0: no data
+    Raster<CellCount> area_cells;             ///< cells that drain through a cell, itself included; 0: no data
     std::int64_t pits = 0;                    ///< cells in depressions (below their spill level)
     double pit_volume_m3 = 0.0;               ///< of all depressions
     std::vector<Depression> depressions = {}; ///< in the order of their first cells
@@ -61,7 +64,7 @@ struct FlowField {
 /// \return each cell with data drains, without cycles, off the grid or into no data. A cell with a lower neighbour on
 /// the filled DEM drains to the steepest (ties: lowest direction), any other towards the cell from which the flood
 /// reached it; water leaves at cells on the border or beside no data that have no lower neighbour.
-/// \throws BadInput when the DEM has no cells or an infinite height
+/// \throws BadInput when the DEM has no cells, 2^32 cells or more, or an infinite height
 ///
 /// Source: \cite ocallaghan1984; \cite barnes2014; queue: radix heap of \cite ahuja1990.
 FlowField route(Raster<float> const& dem, Run const& run = {});

@@ -409,9 +409,9 @@ TEST(Agreement, IsThatOfEveryPairOfCentres) {
 TEST(Agreement, BestThresholdIsTheBestOfAll) {
     ASSERT_TRUE(rc::check("best_threshold", [] {
         Grid const grid = frame(*evenly<std::int64_t>(1, 14), *evenly<std::int64_t>(1, 14));
-        Raster<std::int64_t> area(grid);
-        for (std::int64_t& a : area.values()) {
-            a = *evenly<std::int64_t>(1, 200);
+        Raster<flow::CellCount> area(grid);
+        for (flow::CellCount& a : area.values()) {
+            a = *evenly<flow::CellCount>(1, 200);
         }
         auto const rivers = some_cells(grid);
         auto const [threshold, best] = measure::best_threshold(area, rivers, {});

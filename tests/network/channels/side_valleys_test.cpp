@@ -134,7 +134,7 @@ TEST(SideValleys, WhatMakesNoSenseIsRefused) {
     Scene const scene = plain_scene();
     EXPECT_THROW(side_valleys(scene.rivers, scene.channels, scene.dem, scene.drainage, {0}), BadParameter);
     flow::FlowField other = scene.drainage;
-    other.area_cells = Raster<std::int64_t>(test::frame(91, 91));
+    other.area_cells = Raster<flow::CellCount>(test::frame(91, 91));
     EXPECT_THROW(side_valleys(scene.rivers, scene.channels, scene.dem, other), BadInput);
 }
 

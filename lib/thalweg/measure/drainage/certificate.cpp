@@ -79,7 +79,7 @@ std::vector<std::int64_t> thresholds_to(std::int64_t most) {
     return out;
 }
 
-constexpr std::int32_t no_reach = -1;
+constexpr flow::ReachId no_reach = -1;
 constexpr std::int64_t listed = 1000; ///< most findings of a kind that are listed
 
 bool are_neighbours(Cell a, Cell b) {
@@ -103,15 +103,9 @@ public:
     Certifier(Raster<float> const& dem, flow::FlowField const& drainage, flow::Reaches const& reaches,
               Claims const& claims, Run const& run)
         : dem_(dem), drainage_(drainage), reaches_(reaches), claims_(claims), run_(run), grid_(dem.grid()),
-          owner_(grid_, no_reach), corner_(grid_), fed_(reaches.size(), 0) {
-        for (flow::RiverCell const& c : flow::river_cells(reaches, grid_, run)) {
-            if (is_honoured(c.cell)) {
-                owner_[c.cell] = static_cast<std::int32_t>(c.reach);
-                rivers_.push_back(c);
-            } else {
-                ++out_.waived_cells;
-            }
-        }
+          honoured_(flow::river_cells(reaches, grid_, run)), fed_(reaches.size(), 0) {
+        out_.waived_cells = static_cast<std::int64_t>(
+            std::erase_if(honoured_, [this](flow::RiverCell const& c) { return !is_honoured(c.cell); }));
         find_corners();
         for (flow::Reach const& reach : reaches) {
             ends_.push_back(ends_of(reach));
@@ -127,7 +121,7 @@ public:
         report_depressions();
         find_lakes();
         follow_rivers();
-        trace_sources();
+        compare_traced(trace());
         auto const [cells, agreement] = best_threshold(drainage_.area_cells, with_data(), run_);
         out_.threshold_cells = cells;
         out_.extracted = agreement;
@@ -172,11 +166,23 @@ private:
                 mark_without_corners(line, kept);
             }
         }
-        for (flow::RiverCell const& c : rivers_) {
-            corner_[c.cell] = kept[c.cell] == 0 ? 1 : 0;
+        for (flow::RiverCell const& c : honoured_) {
+            if (kept[c.cell] != 0) {
+                rivers_.push_back(c);
+            } else {
+                corners_.push_back(c.cell);
+            }
         }
-        std::erase_if(rivers_, [this](flow::RiverCell const& c) { return corner_[c.cell] != 0; });
     }
+
+    /// The reach that owns a cell, corners too; no_reach: none.
+    flow::ReachId owner_of(std::int64_t cell) const {
+        auto const at = std::ranges::lower_bound(honoured_, cell, {}, &flow::RiverCell::cell);
+        return at != honoured_.end() && at->cell == cell ? static_cast<flow::ReachId>(at->reach) : no_reach;
+    }
+
+    bool is_corner(std::int64_t cell) const { return std::ranges::binary_search(corners_, cell); }
+    bool in_lake(std::int64_t cell) const { return lake_.cells() > 0 && lake_[cell] != 0; }
 
     void find(FindingKind kind, std::int64_t feature, Cell at, double amount, std::string text) {
         if (++told_[kind] <= listed) {
@@ -212,10 +218,10 @@ private:
 
     /// Marks the level cells around rivers in still water.
     void find_lakes() {
-        lake_ = Mask(grid_);
         if (claims_.still.cells() == 0) {
             return;
         }
+        lake_ = Mask(grid_);
         std::vector<std::int64_t> level;
         for (std::int64_t i = 0; i < grid_.cells(); ++i) {
             if (claims_.still[i] != 0 && is_level(grid_.at(i))) {
@@ -241,7 +247,7 @@ private:
 
     /// Removes cells where it is undetermined whether water passes.
     std::vector<std::int64_t> plain(std::vector<std::int64_t> cells) const {
-        std::erase_if(cells, [this](std::int64_t cell) { return lake_[cell] != 0 || corner_[cell] != 0; });
+        std::erase_if(cells, [this](std::int64_t cell) { return in_lake(cell) || is_corner(cell); });
         return cells;
     }
 
@@ -289,8 +295,8 @@ private:
                      fmt::format("arc {} runs along the border of the DEM at {}", reaches_[c.reach].id, place(at)));
             }
             std::int64_t const next = next_of(c.cell);
-            bool const on = ends_river(c) || lake_[c.cell] != 0 ||
-                            (next >= 0 && owner_[next] != no_reach && leads_to(c.reach, owner_[next]));
+            flow::ReachId const owner = next >= 0 ? owner_of(next) : no_reach;
+            bool const on = ends_river(c) || in_lake(c.cell) || (owner != no_reach && leads_to(c.reach, owner));
             out_.following_cells += on ? 1 : 0;
             if (!on) {
                 double const drop =
@@ -319,7 +325,8 @@ private:
         return outlet;
     }
 
-    void trace_sources() {
+    /// \return the cells of the ways of all sources' water, each once
+    std::vector<std::int64_t> trace() {
         Mask passed(grid_);
         std::vector<std::int64_t> traced;
         for (std::size_t r = 0; r < reaches_.size(); ++r) {
@@ -355,6 +362,10 @@ private:
                                  reaches_[r].id, place(grid_.at(source)), place(goal)));
             }
         }
+        return traced;
+    }
+
+    void compare_traced(std::vector<std::int64_t> const& traced) {
         std::vector<std::int64_t> const rivers = with_data();
         std::vector<std::int64_t> const running = plain(rivers);
         if (running.empty() && !rivers.empty()) {
@@ -380,7 +391,7 @@ private:
         }
         std::vector<std::int64_t> most(reaches_.size(), 0);
         for (flow::RiverCell const& c : rivers_) {
-            most[c.reach] = std::max(most[c.reach], drainage_.area_cells[c.cell]);
+            most[c.reach] = std::max<std::int64_t>(most[c.reach], drainage_.area_cells[c.cell]);
         }
         double const cell_m2 = grid_.cell_m * grid_.cell_m;
         for (std::size_t r = 0; r < reaches_.size(); ++r) {
@@ -400,10 +411,10 @@ private:
     Claims const& claims_;
     Run const& run_;
     Grid const& grid_;
-    Raster<std::int32_t> owner_;
-    Mask lake_;
-    Mask corner_; ///< 1: only corners of reaches
-    std::vector<flow::RiverCell> rivers_;
+    std::vector<flow::RiverCell> honoured_; ///< ascending
+    std::vector<flow::RiverCell> rivers_;   ///< of these without corners
+    std::vector<std::int64_t> corners_;     ///< cells of these, ascending
+    Mask lake_;                             ///< without cells: no lakes
     std::vector<Ends> ends_;
     std::vector<std::uint8_t> fed_; ///< another reach flows into it
     std::map<std::string, std::int64_t> told_;
@@ -441,7 +452,7 @@ Agreements agreement(std::vector<std::int64_t> const& found, std::vector<std::in
                      static_cast<std::int64_t>(rivers.size()));
 }
 
-std::pair<std::int64_t, Agreements> best_threshold(Raster<std::int64_t> const& area_cells,
+std::pair<std::int64_t, Agreements> best_threshold(Raster<flow::CellCount> const& area_cells,
                                                    std::vector<std::int64_t> const& rivers, Run const& run) {
     auto const areas = area_cells.values();
     std::vector<std::int64_t> const thresholds =
@@ -472,7 +483,7 @@ std::pair<std::int64_t, Agreements> best_threshold(Raster<std::int64_t> const& a
         std::array<std::int64_t, 3> most{};
         around(i, area_cells.grid(), [&](std::int64_t n, std::size_t ring) {
             for (std::size_t k = ring; k < most.size(); ++k) {
-                most[k] = std::max(most[k], area_cells[n]);
+                most[k] = std::max<std::int64_t>(most[k], area_cells[n]);
             }
         });
         for (std::size_t k = 0; k < most.size(); ++k) {
@@ -521,8 +532,6 @@ Certificate certify(Raster<float> const& dem, flow::FlowField const& drainage, f
                               "make both on one grid");
         }
     }
-    refuse_if<BadInput>(std::cmp_greater(reaches.size(), std::numeric_limits<std::int32_t>::max()),
-                        "measure.certify: more than 2^31 reaches");
     return Certifier(dem, drainage, reaches, claims, run).certify();
 }
 

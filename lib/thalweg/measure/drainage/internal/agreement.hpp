@@ -17,7 +17,7 @@ Agreements agreement(std::vector<std::int64_t> const& found, std::vector<std::in
 
 /// Tries the contributing areas 2^n and 3 * 2^n [cells] from 16. Returns the one whose cells agree best with a river's
 /// within a cell (ties: the least), and the agreement; (0, nothing) if no cell has 16.
-std::pair<std::int64_t, Agreements> best_threshold(Raster<std::int64_t> const& area_cells,
+std::pair<std::int64_t, Agreements> best_threshold(Raster<flow::CellCount> const& area_cells,
                                                    std::vector<std::int64_t> const& rivers, Run const& run);
 
 } // namespace thalweg::measure
