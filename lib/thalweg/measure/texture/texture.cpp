@@ -3,7 +3,10 @@
 #include <thalweg/measure/texture/texture.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <thalweg/core/cells.hpp>
@@ -12,6 +15,7 @@
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/core/vec.hpp>
+#include <thalweg/measure/texture/internal/gradient_row.hpp>
 
 namespace thalweg::measure {
 namespace {
@@ -63,76 +67,10 @@ std::int64_t mirrored(std::int64_t place, std::int64_t count) {
     return turn < count ? turn : 2 * count - 1 - turn;
 }
 
-/// Smooths along columns into a transposed grid.
-Raster<Tensor> smooth_and_turn(Raster<Tensor> const& blocks, std::vector<double> const& half, Run const& run) {
-    Grid turned = blocks.grid();
-    std::swap(turned.width, turned.height);
-    Raster<Tensor> out(turned);
-    auto const reach = static_cast<std::int64_t>(half.size()) - 1;
-    parallel_ranges(run, blocks.width(), 1, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t c = begin; c < end; ++c) {
-            run.check();
-            for (std::int64_t r = 0; r < blocks.height(); ++r) {
-                Tensor& sum = out[Cell{r, c}];
-                for (std::int64_t k = -reach; k <= reach; ++k) {
-                    Tensor part = blocks[Cell{c, mirrored(r + k, blocks.height())}];
-                    part *= half[k < 0 ? -k : k];
-                    sum += part;
-                }
-            }
-        }
-    });
-    return out;
-}
-
-// Averages tensors in a Gaussian window, truncated at four standard deviations; the grid is reflected at its edges.
-// `blocks`: means over blocks of cells. `window`: [blocks] > 0, standard deviation. Returns by block; the same bits for
-// any number of threads.
-Raster<Tensor> smooth_blocks(Raster<Tensor> const& blocks, double window, Run const& run) {
-    std::vector<double> const half = half_of_window(window);
-    return smooth_and_turn(smooth_and_turn(blocks, half, run), half, run);
-}
-
 constexpr double too_small = std::numeric_limits<double>::quiet_NaN();
 constexpr double blocks_a_window = 8.0; // the window's weights change little between blocks
 constexpr double least_weight = 0.98;   // share of the window on cells with data
 constexpr double border_windows = 2.0;  // at this distance 2 % of a window's weight lie beyond the border
-
-/// Unit vectors uphill; 0: level, NaN: no data.
-struct UnitGradients {
-    Raster<float> x;
-    Raster<float> y;
-};
-
-float difference(float before, float here, float after, bool first, bool last) {
-    return first ? 2.0F * (after - here) : last ? 2.0F * (here - before) : after - before;
-}
-
-UnitGradients unit_gradients(Raster<float> const& dem, Run const& run) {
-    UnitGradients found{Raster<float>(dem.grid()), Raster<float>(dem.grid())};
-    std::int64_t const bottom = dem.height() - 1;
-    std::int64_t const right = dem.width() - 1;
-    parallel_ranges(run, dem.height(), 16, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t r = begin; r < end; ++r) {
-            run.check();
-            auto const north = dem.row(std::max<std::int64_t>(r - 1, 0));
-            auto const here = dem.row(r);
-            auto const south = dem.row(std::min(r + 1, bottom));
-            for (std::int64_t c = 0; c <= right; ++c) {
-                auto const at = [](std::span<float const> row, std::int64_t col) { return row[col]; };
-                float const z = at(here, c);
-                float const x = difference(at(here, std::max<std::int64_t>(c - 1, 0)), z,
-                                           at(here, std::min(c + 1, right)), c == 0, c == right);
-                float const y = difference(at(north, c), z, at(south, c), r == 0, r == bottom);
-                float const length = std::sqrt(x * x + y * y);
-                bool const known = !std::isnan(z) && !std::isnan(length);
-                found.x[Cell{c, r}] = length > 0.0F ? x / length : known ? 0.0F : static_cast<float>(too_small);
-                found.y[Cell{c, r}] = length > 0.0F ? y / length : known ? 0.0F : static_cast<float>(too_small);
-            }
-        }
-    });
-    return found;
-}
 
 struct Products {
     double sum = 0.0;
@@ -146,88 +84,209 @@ struct Products {
     double mean() const { return pairs > 0 ? sum / static_cast<double>(pairs) : too_small; }
 };
 
-/// Sums products over the pairs of cells `lag` apart.
-Products products(UnitGradients const& unit, Cell lag, Run const& run) {
-    std::int64_t const offset = lag.row * unit.x.width() + lag.col;
-    return sum_rows(run, unit.x.height() - lag.row, [&](std::int64_t r) {
-        run.check();
-        Products row;
-        std::int64_t const first = r * unit.x.width();
-        for (std::int64_t i = first; i < first + unit.x.width() - lag.col; ++i) {
-            auto const x = static_cast<double>(unit.x[i]);
-            auto const y = static_cast<double>(unit.y[i]);
-            auto const there_x = static_cast<double>(unit.x[i + offset]);
-            auto const there_y = static_cast<double>(unit.y[i + offset]);
-            bool const slopes = (x != 0.0 || y != 0.0) && (there_x != 0.0 || there_y != 0.0);
-            double const product = x * there_x + y * there_y;
-            if (slopes && !std::isnan(product)) {
-                row.sum += product;
-                ++row.pairs;
-            }
+/// Along rows and columns, by lag.
+struct ProductsByLag {
+    std::array<Products, texture_lags_m.size()> along_rows;
+    std::array<Products, texture_lags_m.size()> along_columns;
+
+    ProductsByLag& operator+=(ProductsByLag const& more) {
+        for (std::size_t lag = 0; lag < along_rows.size(); ++lag) {
+            along_rows[lag] += more.along_rows[lag];
+            along_columns[lag] += more.along_columns[lag];
         }
-        return row;
-    });
-}
-
-double correlation(UnitGradients const& unit, double lag_m, Run const& run) {
-    double const cells = std::round(lag_m / unit.x.grid().cell_m);
-    if (cells < 1.0 || cells >= static_cast<double>(std::min(unit.x.width(), unit.x.height()))) {
-        return too_small;
+        return *this;
     }
-    auto const lag = static_cast<std::int64_t>(cells);
-    return 0.5 * (products(unit, {lag, 0}, run).mean() + products(unit, {0, lag}, run).mean());
+};
+
+/// Counts the pairs of cells of which neither is level.
+std::int64_t pairs(std::uint8_t const* slopes, std::uint8_t const* there, std::size_t count) {
+    std::int64_t found = 0;
+    for (std::size_t c = 0; c < count; ++c) {
+        found += slopes[c] & there[c];
+    }
+    return found;
 }
 
-Tensor tensor_of(UnitGradients const& unit, std::int64_t cell) {
-    auto const x = static_cast<double>(unit.x[cell]);
-    auto const y = static_cast<double>(unit.y[cell]);
-    return std::isnan(x) ? Tensor{} : Tensor{x * x, y * y, x * y, 1.0};
+/// Sums over a row of cells, in one pass: six sums that do not wait for one another.
+/// \param below the rows that lie a lag further south
+ProductsByLag products_of(GradientRow const& row, std::array<GradientRow, texture_lags_m.size()> const& below,
+                          std::array<std::int64_t, texture_lags_m.size()> const& lags, std::size_t width) {
+    static_assert(texture_lags_m.size() == 3);
+    float const* const x = row.x.data();
+    float const* const y = row.y.data();
+    auto const product = [=](std::size_t c, float const* there_x, float const* there_y) {
+        return static_cast<double>(x[c]) * static_cast<double>(there_x[c]) +
+               static_cast<double>(y[c]) * static_cast<double>(there_y[c]);
+    };
+    std::array<double, 3> along_row{};
+    std::array<double, 3> along_column{};
+    for (std::size_t c = 0; c < width; ++c) {
+        along_row[0] += product(c, x + lags[0], y + lags[0]);
+        along_row[1] += product(c, x + lags[1], y + lags[1]);
+        along_row[2] += product(c, x + lags[2], y + lags[2]);
+        along_column[0] += product(c, below[0].x.data(), below[0].y.data());
+        along_column[1] += product(c, below[1].x.data(), below[1].y.data());
+        along_column[2] += product(c, below[2].x.data(), below[2].y.data());
+    }
+    ProductsByLag sums;
+    for (std::size_t lag = 0; lag < lags.size(); ++lag) {
+        sums.along_rows[lag] = {along_row[lag], pairs(row.slopes.data(), row.slopes.data() + lags[lag], width)};
+        sums.along_columns[lag] = {along_column[lag], pairs(row.slopes.data(), below[lag].slopes.data(), width)};
+    }
+    return sums;
 }
 
-/// Mean tensors over square blocks of `side` cells.
-Raster<Tensor> blocks_of(UnitGradients const& unit, std::int64_t side, Run const& run) {
-    Grid grid = unit.x.grid();
-    grid.width = (grid.width + side - 1) / side;
-    grid.height = (grid.height + side - 1) / side;
-    Raster<Tensor> blocks(grid);
-    parallel_ranges(run, grid.height, 1, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t r = begin * side; r < std::min(end * side, unit.x.height()); ++r) {
+std::array<double, texture_lags_m.size()> correlations(Raster<float> const& dem, Run const& run) {
+    std::array<std::int64_t, texture_lags_m.size()> lags{}; // 0: shorter than a cell, or longer than the DEM
+    for (std::size_t lag = 0; lag < lags.size(); ++lag) {
+        double const cells = std::round(texture_lags_m[lag] / dem.grid().cell_m);
+        bool const fits = cells >= 1.0 && cells < static_cast<double>(std::min(dem.width(), dem.height()));
+        lags[lag] = fits ? static_cast<std::int64_t>(cells) : 0;
+    }
+    std::int64_t const longest = *std::ranges::max_element(lags);
+    std::vector<ProductsByLag> rows(dem.height());
+    parallel_ranges(run, dem.height(), 16, [&](std::int64_t begin, std::int64_t end) {
+        GradientRow row(dem.width(), longest);
+        GradientRow const level(dem.width());
+        std::array<GradientRow, texture_lags_m.size()> below{level, level, level};
+        for (std::int64_t r = begin; r < end; ++r) {
             run.check();
-            for (std::int64_t c = 0; c < unit.x.width(); ++c) {
-                blocks[Cell{c / side, r / side}] += tensor_of(unit, r * unit.x.width() + c);
+            row.compute(dem, r);
+            for (std::size_t lag = 0; lag < lags.size(); ++lag) {
+                if (lags[lag] > 0 && r + lags[lag] < dem.height()) {
+                    below[lag].compute(dem, r + lags[lag]);
+                } else {
+                    below[lag].level();
+                }
             }
+            rows[r] = products_of(row, below, lags, static_cast<std::size_t>(dem.width()));
         }
     });
-    for (std::int64_t i = 0; i < blocks.cells(); ++i) {
-        Cell const at = grid.at(i);
-        std::int64_t const wide = std::min(side, unit.x.width() - at.col * side);
-        std::int64_t const high = std::min(side, unit.x.height() - at.row * side);
-        blocks[i] *= 1.0 / static_cast<double>(wide * high);
+    ProductsByLag sum;
+    for (ProductsByLag const& of_row : rows) {
+        sum += of_row;
     }
-    return blocks;
+    std::array<double, texture_lags_m.size()> found{};
+    for (std::size_t lag = 0; lag < lags.size(); ++lag) {
+        found[lag] = lags[lag] > 0 ? 0.5 * (sum.along_rows[lag].mean() + sum.along_columns[lag].mean()) : too_small;
+    }
+    return found;
 }
 
-double anisotropy(UnitGradients const& unit, double window_m, Run const& run) {
-    double const window = window_m / unit.x.grid().cell_m; // cells
-    if (!(window >= 1.0) ||
-        2.0 * border_windows * window >= static_cast<double>(std::min(unit.x.width(), unit.x.height()))) {
+/// Mean tensors over square blocks of cells, row by row.
+class Blocks {
+public:
+    Blocks(Raster<float> const& dem, std::int64_t side)
+        : dem_(dem), side_(side), width_((dem.width() + side - 1) / side), height_((dem.height() + side - 1) / side) {}
+
+    std::int64_t width() const { return width_; }
+    std::int64_t height() const { return height_; }
+
+    /// Computes a row of blocks.
+    void compute(std::int64_t row, GradientRow& gradients, Tensor* blocks) const {
+        std::fill(blocks, blocks + width_, Tensor{});
+        std::int64_t const high = std::min(side_, dem_.height() - row * side_);
+        for (std::int64_t r = row * side_; r < row * side_ + high; ++r) {
+            gradients.compute(dem_, r);
+            for (std::int64_t block = 0; block < width_; ++block) {
+                for (std::int64_t c = block * side_; c < std::min((block + 1) * side_, dem_.width()); ++c) {
+                    auto const x = static_cast<double>(gradients.x[c]);
+                    auto const y = static_cast<double>(gradients.y[c]);
+                    blocks[block] += Tensor{x * x, y * y, x * y, static_cast<double>(gradients.known[c])};
+                }
+            }
+        }
+        for (std::int64_t block = 0; block < width_; ++block) {
+            std::int64_t const wide = std::min(side_, dem_.width() - block * side_);
+            blocks[block] *= 1.0 / static_cast<double>(wide * high);
+        }
+    }
+
+private:
+    Raster<float> const& dem_;
+    std::int64_t side_; ///< [cells]
+    std::int64_t width_;
+    std::int64_t height_;
+};
+
+/// Averages the rows [begin, end) of blocks in a Gaussian window, which is reflected at the edges, and calls
+/// visit(row, tensors) for each.
+template <class Visit>
+void smooth_rows(Blocks const& blocks, std::vector<double> const& half, std::int64_t begin, std::int64_t end,
+                 GradientRow& gradients, Run const& run, Visit visit) {
+    auto const reach = static_cast<std::int64_t>(half.size()) - 1;
+    std::int64_t const width = blocks.width();
+    std::int64_t const first = std::max<std::int64_t>(begin - reach, 0);
+    std::int64_t const beyond = std::min(end + reach, blocks.height());
+    std::vector<Tensor> band((beyond - first) * width);
+    for (std::int64_t row = first; row < beyond; ++row) {
+        run.check();
+        blocks.compute(row, gradients, band.data() + (row - first) * width);
+    }
+    std::vector<Tensor> along_columns(width);
+    std::vector<Tensor> smooth(width);
+    auto const weight = [&](std::int64_t k) { return half[k < 0 ? -k : k]; };
+    auto const add = [](Tensor& sum, Tensor part, double factor) {
+        part *= factor;
+        sum += part;
+    };
+    for (std::int64_t row = begin; row < end; ++row) {
+        run.check();
+        std::ranges::fill(along_columns, Tensor{});
+        for (std::int64_t k = -reach; k <= reach; ++k) {
+            Tensor const* const there = band.data() + (mirrored(row + k, blocks.height()) - first) * width;
+            for (std::int64_t c = 0; c < width; ++c) {
+                add(along_columns[c], there[c], weight(k));
+            }
+        }
+        std::ranges::fill(smooth, Tensor{});
+        for (std::int64_t c = 0; c < width; ++c) {
+            for (std::int64_t k = -reach; k <= reach; ++k) {
+                bool const inside = c + k >= 0 && c + k < width;
+                add(smooth[c], along_columns[inside ? c + k : mirrored(c + k, width)], weight(k));
+            }
+        }
+        visit(row, std::as_const(smooth));
+    }
+}
+
+double anisotropy(Raster<float> const& dem, double window_m, Run const& run) {
+    double const window = window_m / dem.grid().cell_m; // cells
+    if (!(window >= 1.0) || 2.0 * border_windows * window >= static_cast<double>(std::min(dem.width(), dem.height()))) {
         return too_small;
     }
     auto const side = std::max<std::int64_t>(static_cast<std::int64_t>(window / blocks_a_window), 1);
     auto const cells = static_cast<double>(side);
-    Raster<Tensor> const smooth = smooth_blocks(blocks_of(unit, side, run), window / cells, run);
+    Blocks const blocks(dem, side);
+    auto const inside = [&](std::int64_t place, std::int64_t count) {
+        double const centre = (static_cast<double>(place) + 0.5) * cells;
+        return centre >= border_windows * window && centre <= static_cast<double>(count) - border_windows * window;
+    };
+    std::vector<double> const half = half_of_window(window / cells);
+    constexpr std::int64_t rows_at_once = 512; // what is smooth lives no longer
+    constexpr double none = -1.0;
     Products sum;
-    for (std::int64_t i = 0; i < smooth.cells(); ++i) {
-        Cell const at = smooth.grid().at(i);
-        auto const inside = [&](std::int64_t place, std::int64_t count) {
-            double const centre = (static_cast<double>(place) + 0.5) * cells;
-            return centre >= border_windows * window && centre <= static_cast<double>(count) - border_windows * window;
-        };
-        Tensor const& t = smooth[i];
-        if (t.weight > least_weight && t.xx + t.yy > 0.0 && inside(at.col, unit.x.width()) &&
-            inside(at.row, unit.x.height())) {
-            sum.sum += std::sqrt((t.xx - t.yy) * (t.xx - t.yy) + 4.0 * t.xy * t.xy) / (t.xx + t.yy);
-            ++sum.pairs;
+    for (std::int64_t from = 0; from < blocks.height(); from += rows_at_once) {
+        std::int64_t const rows = std::min(rows_at_once, blocks.height() - from);
+        std::vector<double> found(rows * blocks.width(), none);
+        parallel_ranges(run, rows, 64, [&](std::int64_t begin, std::int64_t end) {
+            GradientRow gradients(dem.width());
+            smooth_rows(blocks, half, from + begin, from + end, gradients, run, [&](std::int64_t row, auto const& of) {
+                for (std::int64_t c = 0; c < blocks.width(); ++c) {
+                    Tensor const& t = of[c];
+                    if (t.weight > least_weight && t.xx + t.yy > 0.0 && inside(c, dem.width()) &&
+                        inside(row, dem.height())) {
+                        found[(row - from) * blocks.width() + c] =
+                            std::sqrt((t.xx - t.yy) * (t.xx - t.yy) + 4.0 * t.xy * t.xy) / (t.xx + t.yy);
+                    }
+                }
+            });
+        });
+        for (double const share : found) {
+            if (share != none) {
+                sum.sum += share;
+                ++sum.pairs;
+            }
         }
     }
     return sum.mean();
@@ -327,11 +386,8 @@ GradientTexture gradient_texture(Raster<float> const& dem, GradientTextureParams
     refuse_if<BadInput>(!(dem.grid().cell_m > 0.0),
                         "measure.gradient_texture: the DEM's cells have a side of {} m; it must be greater than 0",
                         dem.grid().cell_m);
-    UnitGradients const unit = unit_gradients(dem, run);
-    for (std::size_t lag = 0; lag < texture_lags_m.size(); ++lag) {
-        found.correlation[lag] = correlation(unit, texture_lags_m[lag], run);
-    }
-    found.anisotropy = anisotropy(unit, params.window_m, run);
+    found.correlation = correlations(dem, run);
+    found.anisotropy = anisotropy(dem, params.window_m, run);
     return found;
 }
 

@@ -19,9 +19,9 @@
 // for both. straight_channels looks for the opposite fault, valleys that follow the grid.
 // Source: Bigün and Granlund 1987 (structure tensor). Lags, windows and straight channels are ours:
 // docs/relief_measures.md.
-// Cost: O(n), 8 bytes a cell: tensors are averaged over blocks of an eighth of the window before
-// they are smoothed. straight_channels O(channel cells reach_steps). Rows run on all cores; the
-// same bits for any number of threads.
+// Cost: O(n), a few rows of memory: gradients are computed anew where they are read, and tensors
+// averaged over blocks of an eighth of the window before they are smoothed. straight_channels
+// O(channel cells reach_steps). Rows run on all cores; the same bits for any number of threads.
 // Not for: DEMs smaller than four windows, whose anisotropy is NaN. DEMs of different cell sizes: a
 // gradient spans two cells, so that the finer DEM shows finer faces.
 // Example:
