@@ -100,10 +100,6 @@ SurfaceMeasures of_surface(recipe::Recipe const& recipe, Terrain const& terrain,
     found.hypsometry = measure::hypsometry(dem, run);
     found.pits = drainage.pits;
     found.pit_volume_m3 = drainage.pit_volume_m3;
-    if (recipe::stage::catchments.runs(recipe)) {
-        found.catchments = stage_log.stage(recipe::stage::catchments.name,
-                                           [&] { return flow::catchments(flow::reaches_of(network), drainage, run); });
-    }
     if (recipe.network) {
         if (recipe.network->inland == recipe::InlandEnds::sink) {
             found.sinks = inland_ends(network, dem);
@@ -135,6 +131,10 @@ SurfaceMeasures of_surface(recipe::Recipe const& recipe, Terrain const& terrain,
     found.relief = stage_log.stage(recipe::stage::relief.name,
                                    [&] { return relief_of_terrain(recipe, terrain, *found.statistics, run); });
     warn_of_texture(recipe, terrain, *found.relief, stage_log);
+    if (recipe::stage::catchments.runs(recipe)) {
+        found.catchments = stage_log.stage(recipe::stage::catchments.name,
+                                           [&] { return flow::catchments(flow::reaches_of(network), drainage, run); });
+    }
     return found;
 }
 

@@ -59,14 +59,14 @@ Stage const carve{"carve", 0.7, is_conditioned};
 Stage const drain{"drain", usual, with_surface};
 Stage const valleys{"valleys", usual, around_rivers and is(&NetworkRecipe::fill_space, {true})};
 Stage const measure{"measure", usual, with_surface};
-Stage const catchments{"catchments", usual,
-                       around_rivers and is(&OutputRecipe::catchments, {true}) and writes(OutputFiles::catchments)};
 Stage const certify{"certify", usual, around_rivers};
 Stage const ridges{"ridges", usual, around_rivers and (between_streams or given(&SkeletonRecipe::ridge_lines))};
 Stage const areas{"areas", usual,
                   with_surface and is(&OutputRecipe::accumulation, {true}) and writes(OutputFiles::areas)};
 Stage const laws{"laws", usual, with_surface};
 Stage const relief{"relief", 0.7, with_surface};
+Stage const catchments{"catchments", usual,
+                       around_rivers and is(&OutputRecipe::catchments, {true}) and writes(OutputFiles::catchments)};
 Stage const check{"check", usual, with_rivers};
 Stage const compare{"compare", usual, given(&OutputRecipe::against)};
 
@@ -79,11 +79,11 @@ std::string Stage::runs_if() const {
 std::span<Stage const* const> all_stages() {
     using namespace stage;
     static constexpr Stage const* in_order[] = {
-        &raster,  &read,   &shape, &grow,         &thin,    &trace,    &embed,
-        &adopt,   &sea,    &prune, &meander,      &raise,   &channels, &fill_in_equilibrium,
-        &scatter, &ridge,  &tin,   &fill_dilated, &fill,    &land,     &detail,
-        &project, &blend,  &carve, &drain,        &valleys, &measure,  &catchments,
-        &certify, &ridges, &areas, &laws,         &relief,  &check,    &compare};
+        &raster,  &read,  &shape, &grow,         &thin,       &trace,    &embed,
+        &adopt,   &sea,   &prune, &meander,      &raise,      &channels, &fill_in_equilibrium,
+        &scatter, &ridge, &tin,   &fill_dilated, &fill,       &land,     &detail,
+        &project, &blend, &carve, &drain,        &valleys,    &measure,  &certify,
+        &ridges,  &areas, &laws,  &relief,       &catchments, &check,    &compare};
     return in_order;
 }
 

@@ -41,7 +41,7 @@ namespace stage {
 extern Stage const raster, read, shape, grow, thin, trace, embed, adopt, sea, prune, meander, raise;
 extern Stage const channels, fill_in_equilibrium, scatter, ridge, tin, fill_dilated, fill, land, detail, project;
 extern Stage const blend; ///< once for each patch
-extern Stage const carve, drain, valleys, measure, catchments, certify, ridges, areas, laws, relief, check, compare;
+extern Stage const carve, drain, valleys, measure, certify, ridges, areas, laws, relief, catchments, check, compare;
 } // namespace stage
 
 /// All of them, in the order in which they run.
