@@ -6,6 +6,7 @@
 /// threads, progress, random numbers.
 #include <thalweg/core/append.hpp>
 #include <thalweg/core/bounded_json.hpp>
+#include <thalweg/core/box_means.hpp>
 #include <thalweg/core/by_enum.hpp>
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/channels.hpp>

@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <thalweg/core/box_means.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/draw/internal/map.hpp>
 
@@ -113,6 +114,38 @@ TEST(Map, OrdersAndAreasHaveTheSameWidths) {
     draw::RiverScale const scale{.highest_order = 4, .largest_area_m2 = 9e6};
     EXPECT_EQ(draw::style_of_order(1, scale, 1.0).width_px, draw::style_of_area(0.0, scale, 1.0).width_px);
     EXPECT_EQ(draw::style_of_order(4, scale, 1.0).width_px, draw::style_of_area(9e6, scale, 1.0).width_px);
+}
+
+TEST(Map, MeansOfADemAreDrawnInItsPlace) {
+    test::SmallLand const land = test::small_land();
+    MapSheet const sheet{land.dem, land.hillshade, &land.network, &land.orders, {}};
+    test::Pixels const whole = test::decode(draw::map(sheet).bytes);
+    Raster<float> const means = box_means(land.dem, 29);
+    Raster<std::uint8_t> const shade = test::shade(means);
+    draw::HeightRange const heights = draw::height_range(land.dem);
+    MapSheet coarse{means, shade, &land.network, &land.orders, {}};
+    coarse.whole = draw::WholeDem{land.dem.grid(), heights.low_m, heights.high_m};
+    test::Pixels const pixels = test::decode(draw::map(coarse).bytes);
+    ASSERT_EQ(pixels.rgb.size(), whole.rgb.size());
+    double difference = 0.0;
+    std::size_t differing = 0; // outside of the land: legend and facts are those of the whole
+    for (std::size_t i = 0; i < pixels.rgb.size(); ++i) {
+        difference += std::abs(static_cast<int>(pixels.rgb[i]) - static_cast<int>(whole.rgb[i]));
+        bool const is_below = i / 3 / pixels.width > 90 + 1310;
+        differing += is_below && pixels.rgb[i] != whole.rgb[i] ? 1 : 0;
+    }
+    EXPECT_LT(difference / static_cast<double>(pixels.rgb.size()), 2.0);
+    EXPECT_EQ(differing, 0U);
+}
+
+TEST(Map, TellsHowManyColumnsItShows) {
+    Grid const square{5000, 5000, 10.0, 0.0, 0.0, ""};
+    EXPECT_EQ(draw::columns_of_map(square), 1310);
+    MapParams scalable;
+    scalable.format = Format::svg;
+    EXPECT_EQ(draw::columns_of_map(square, scalable), 2620);
+    EXPECT_EQ(draw::columns_of_map({5000, 50000, 10.0, 0.0, 0.0, ""}), 184); // 1.4 times as tall as wide at most
+    EXPECT_EQ(draw::columns_of_ground({2049, 2049, 10.0, 0.0, 0.0, ""}), 2049);
 }
 
 TEST(Map, RidgesAreBrownLinesAndNoneLeaveNoTrace) {

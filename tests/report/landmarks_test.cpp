@@ -41,6 +41,26 @@ TEST(Landmarks, SummitsAreTheMostProminentWithRoomBetweenThem) {
     EXPECT_TRUE(report::summits(Raster<float>(dem.grid(), 5.0F), 10).empty());
 }
 
+TEST(Landmarks, SummitsOfALargeDemAreItsHighestCells) {
+    Raster<float> dem(Grid{2100, 90, 10.0, 1000.0, 2000.0, ""});
+    std::vector<std::pair<Cell, double>> const tops = {{{400, 40}, 200.0}, {{1501, 50}, 300.0}, {{2000, 44}, 250.0}};
+    for (std::int64_t i = 0; i < dem.cells(); ++i) {
+        Cell const here = dem.grid().at(i);
+        for (auto const& [top, height] : tops) {
+            double const away =
+                std::hypot(static_cast<double>(here.col - top.col), static_cast<double>(here.row - top.row));
+            dem[i] = std::max(dem[i], static_cast<float>(height - 10.0 * away));
+        }
+    }
+    std::vector<report::Summit> const found = report::summits(dem, 10);
+    ASSERT_EQ(found.size(), 3U);
+    for (std::size_t k = 0; k < 3; ++k) {
+        auto const& [top, height] = tops[(k + 1) % 3 == 0 ? 0 : k + 1];
+        EXPECT_EQ(found[k].at, dem.grid().centre(top)) << k;
+        EXPECT_EQ(found[k].z, height) << k;
+    }
+}
+
 TEST(Landmarks, TheSeaIsWhereCellsOfATerrainAreNotLand) {
     make::Terrain terrain;
     EXPECT_FALSE(report::sea_of(terrain).has_value());

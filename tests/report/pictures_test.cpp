@@ -51,4 +51,40 @@ TEST(Pictures, AMapShowsItsSeaItsLakesAndWhereItIs) {
     EXPECT_NE(report::draw_picture(report::PictureKind::map, scene, look).bytes, dry);
 }
 
+TEST(Pictures, LandOfMoreColumnsThanPixelsIsShownByItsMeans) {
+    Raster<float> plane(Grid{60, 40, 30.0, 500000.0, 5000000.0, ""});
+    for (std::int64_t i = 0; i < plane.cells(); ++i) {
+        Cell const c = plane.grid().at(i);
+        plane[i] = static_cast<float>(5 * c.row + 2 * c.col);
+    }
+    Mask lakes(plane.grid());
+    report::ShownLand const whole(plane, lakes, 60);
+    EXPECT_TRUE(whole.is_whole());
+    EXPECT_EQ(&whole.dem(), &plane);
+    EXPECT_FALSE(whole.sheet().whole.has_value());
+
+    lakes[Cell{30, 20}] = lakes[Cell{31, 20}] = lakes[Cell{32, 20}] = 1;
+    report::ShownLand const coarse(plane, lakes, 40);
+    EXPECT_FALSE(coarse.is_whole());
+    draw::MapSheet const sheet = coarse.sheet();
+    EXPECT_EQ(sheet.dem.width(), 40);
+    EXPECT_EQ(sheet.hillshade.width(), 40);
+    EXPECT_EQ(std::ranges::count(sheet.lakes->values(), 1), 2);
+    ASSERT_TRUE(sheet.whole.has_value());
+    EXPECT_EQ(sheet.whole->grid, plane.grid());
+    EXPECT_EQ(sheet.whole->low_m, 0.0);
+    EXPECT_EQ(sheet.whole->high_m, 5.0 * 39 + 2.0 * 59);
+    std::size_t vertices = 0;
+    for (auto const& [z, line] : coarse.contours(20.0)) {
+        for (Vec2 const p : line) { // means of a plane lie on it
+            double const col = (p.x - plane.grid().west) / 30.0 - 0.5;
+            double const row = (plane.grid().north - p.y) / 30.0 - 0.5;
+            bool const on_rim = col < 2.0 || col > 57.0 || row < 2.0 || row > 37.0;
+            EXPECT_NEAR(5.0 * row + 2.0 * col, z, on_rim ? 14.0 : 2.0);
+            ++vertices;
+        }
+    }
+    EXPECT_GT(vertices, 20U);
+}
+
 } // namespace thalweg::report

@@ -269,10 +269,6 @@ double advance(cairo_t* sheet, std::vector<Stretch> const& stretches, TextStyle 
     return sum;
 }
 
-Vec2 near_sheet(Vec2 p) {
-    return {std::clamp(p.x, -1e6, 1e6), std::clamp(p.y, -1e6, 1e6)};
-}
-
 Vec2 towards(Vec2 from, Vec2 to, double by) {
     double const length = distance(from, to);
     double const share = length > 0.0 ? std::min(0.5, by / length) : 0.0;
@@ -374,6 +370,10 @@ void draw_line(Cairo* sheet, Vec2 from, Vec2 to, double line_width, Colour colou
     cairo_move_to(sheet, from.x, from.y);
     cairo_line_to(sheet, to.x, to.y);
     cairo_stroke(sheet);
+}
+
+Vec2 near_sheet(Vec2 p) {
+    return {std::clamp(p.x, -1e6, 1e6), std::clamp(p.y, -1e6, 1e6)};
 }
 
 void trace_line(Cairo* sheet, std::vector<Vec2> const& line, double corner_px) {

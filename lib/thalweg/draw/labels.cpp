@@ -123,8 +123,8 @@ struct Search {
 };
 
 /// Heights as integers where these tell them apart.
-int decimals_of_spots(Raster<float> const& dem) {
-    HeightRange const heights = height_range(dem);
+int decimals_of_spots(MapSheet const& sheet) {
+    HeightRange const heights = height_range(sheet);
     return heights.high_m - heights.low_m >= 50.0 ? 0 : 1;
 }
 
@@ -293,7 +293,7 @@ Labels place_labels(Cairo* canvas, MapSheet const& sheet, Window const& window, 
                     double contour_interval_m, double unit) {
     LinesOnSheet const lines = lines_to_avoid(sheet, window, shores, unit);
     Search search{canvas, sheet, window, contour_interval_m, unit, lines};
-    int const decimals = decimals_of_spots(sheet.dem);
+    int const decimals = decimals_of_spots(sheet);
     for (SpotHeight const& spot : sheet.spot_heights) {
         place_spot(search, spot, decimals);
     }

@@ -17,6 +17,7 @@
 #include <thalweg/draw/internal/labels.hpp>
 #include <thalweg/draw/internal/map.hpp>
 #include <thalweg/draw/internal/water.hpp>
+#include <thalweg/geometry/polylines.hpp>
 
 namespace thalweg::draw {
 namespace {
@@ -211,6 +212,15 @@ bool has_lakes(MapSheet const& sheet) {
     return sheet.lakes != nullptr && sheet.lakes->cells() > 0;
 }
 
+Grid const& whole_grid(MapSheet const& sheet) {
+    return sheet.whole ? sheet.whole->grid : sheet.dem.grid();
+}
+
+/// Formats that can be scaled have two pixels for one.
+double density_of(Format format) {
+    return format == Format::png ? 1.0 : 2.0;
+}
+
 // Draws contours with gaps for their labels.
 void draw_contours(Cairo* canvas, MapSheet const& sheet, Window const& window, double interval_m, double unit,
                    std::vector<Label> const& labels) {
@@ -263,7 +273,7 @@ void draw_rivers(Cairo* canvas, MapSheet const& sheet, Window const& window, dou
         arcs.emplace_back(scale.largest_area_m2 > 0.0 ? known(sheet.areas_m2[a]) : sheet.orders->strahler[a], a);
     }
     std::stable_sort(arcs.begin(), arcs.end(), [](auto const& a, auto const& b) { return a.first < b.first; });
-    double const corner_px = 0.75 * sheet.dem.grid().cell_m * window.px_per_m;
+    double const corner_px = 0.75 * whole_grid(sheet).cell_m * window.px_per_m;
     cairo_set_line_cap(canvas, CAIRO_LINE_CAP_ROUND);
     for (auto const& [size, a] : arcs) {
         LineStyle const style = scale.largest_area_m2 > 0.0 ? style_of_area(size, scale, unit)
@@ -345,7 +355,7 @@ std::string height_in_words(double z, HeightRange const& heights) {
 
 /// The line below the title, in the words of the report page.
 std::vector<std::string> facts_of(MapSheet const& sheet, MapParams const& params, HeightRange const& heights) {
-    Grid const& grid = sheet.dem.grid();
+    Grid const& grid = whole_grid(sheet);
     auto const cells = [](std::int64_t count) { return figures(static_cast<double>(count), 7); };
     auto const km = [&](std::int64_t count) { return figures(static_cast<double>(count) * grid.cell_m / 1000.0, 3); };
     std::vector<std::string> facts = {fmt::format("{} × {} cells of {} m ({} × {} km)", cells(grid.width),
@@ -384,22 +394,37 @@ TextStyle facts_style(double unit) {
     return {14.5 * unit, faint_ink};
 }
 
+double unit_of(int width_px) {
+    return std::max(0.6, width_px / 1400.0);
+}
+
+constexpr double margin_units = 22.0;
+constexpr double band_units = 23.0;
+
+/// \param room [px] width inside the frame
+double px_per_m_of(Grid const& grid, double room) {
+    double const ground_wide = static_cast<double>(grid.width) * grid.cell_m;
+    double const ground_tall = static_cast<double>(grid.height) * grid.cell_m;
+    return std::min(room / ground_wide, 1.4 * room / ground_tall);
+}
+
+double room_of(int width_px) {
+    return width_px - 2.0 * (margin_units + band_units) * unit_of(width_px);
+}
+
 Layout lay_out(MapSheet const& sheet, MapParams const& params, std::vector<std::string> const& facts) {
-    Grid const& grid = sheet.dem.grid();
+    Grid const& grid = whole_grid(sheet);
     Layout out;
     out.width = params.width_px;
-    out.unit = std::max(0.6, out.width / 1400.0);
-    out.band = 23.0 * out.unit;
-    double const margin = 22.0 * out.unit + out.band;
-    double const room = out.width - 2.0 * margin;
+    out.unit = unit_of(params.width_px);
+    out.band = band_units * out.unit;
+    double const room = room_of(params.width_px);
     out.facts = lines_within(facts, facts_style(out.unit), out.width - 44.0 * out.unit);
     double const top = (params.title.empty() ? 22.0 : 60.0) * out.unit +
                        static_cast<double>(out.facts.size()) * facts_pitch * out.unit + out.band;
-    double const ground_wide = static_cast<double>(grid.width) * grid.cell_m;
-    double const ground_tall = static_cast<double>(grid.height) * grid.cell_m;
-    out.window.px_per_m = std::min(room / ground_wide, 1.4 * room / ground_tall);
-    out.ground.width = ground_wide * out.window.px_per_m;
-    out.ground.height = ground_tall * out.window.px_per_m;
+    out.window.px_per_m = px_per_m_of(grid, room);
+    out.ground.width = static_cast<double>(grid.width) * grid.cell_m * out.window.px_per_m;
+    out.ground.height = static_cast<double>(grid.height) * grid.cell_m * out.window.px_per_m;
     // The frame around a single row or column of cells must remain visible.
     double const least = std::min(60.0 * out.unit, room);
     Box& frame = out.window.frame;
@@ -587,6 +612,26 @@ HeightRange height_range(Raster<float> const& dem) {
     return range;
 }
 
+HeightRange height_range(MapSheet const& sheet) {
+    HeightRange range = height_range(sheet.dem);
+    if (sheet.whole) {
+        range.low_m = sheet.whole->low_m;
+        range.high_m = sheet.whole->high_m;
+    }
+    return range;
+}
+
+std::int64_t columns_of_map(Grid const& grid, MapParams const& params) {
+    double const ground_wide = static_cast<double>(grid.width) * grid.cell_m;
+    double const pixels = density_of(params.format) * ground_wide * px_per_m_of(grid, room_of(params.width_px));
+    return static_cast<std::int64_t>(std::ceil(pixels - 1e-6));
+}
+
+std::int64_t columns_of_ground(Grid const& grid, GroundParams const& params) {
+    double const px_per_cell = static_cast<double>(params.width_px) / static_cast<double>(grid.width - 1);
+    return static_cast<std::int64_t>(std::ceil(px_per_cell * static_cast<double>(grid.width) - 1e-6));
+}
+
 void draw_relief(Cairo* sheet, Relief const& relief, Box where, double px_per_cell) {
     struct End {
         void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
@@ -620,9 +665,19 @@ ContourKind kind_of_contour(double height_m, double interval_m) {
 }
 
 std::vector<Vec2> on_sheet(std::vector<Vec2> const& line, Window const& window) {
-    std::vector<Vec2> out(line.size());
-    std::transform(line.begin(), line.end(), out.begin(), [&](Vec2 p) { return window.at(p); });
-    return out;
+    constexpr double unseen_px = 0.2;
+    std::vector<Vec2> out;
+    for (Vec2 const p : line) {
+        Vec2 const at = near_sheet(window.at(p));
+        if (out.empty() || distance(out.back(), at) >= unseen_px) {
+            out.push_back(at);
+        }
+    }
+    if (line.size() > 1) { // the end is always kept
+        out.resize(std::max<std::size_t>(2, out.size()));
+        out.back() = near_sheet(window.at(line.back()));
+    }
+    return geometry::simplify(out, unseen_px);
 }
 
 LineStyle contour_style(ContourKind kind, double unit) {
@@ -656,10 +711,9 @@ LineStyle ridge_style(double unit) {
 
 Picture map(MapSheet const& sheet, MapParams const& params) {
     require_sheet(sheet, params);
-    double const density = params.format == Format::png ? 1.0 : 2.0; // vector output can be scaled
-    HeightRange const heights = height_range(sheet.dem);
+    HeightRange const heights = height_range(sheet);
     Layout layout = lay_out(sheet, params, facts_of(sheet, params, heights));
-    Relief const relief = tinted_relief(sheet, heights, density * layout.ground.width);
+    Relief const relief = tinted_relief(sheet, heights, density_of(params.format) * layout.ground.width);
     Window const& window = layout.window;
     double const unit = layout.unit;
     Mask const sea = sheet.sea ? holes_of(sheet.dem) : Mask{};
@@ -705,7 +759,7 @@ Picture ground(MapSheet const& sheet, GroundParams const& params) {
     require_sheet(sheet, {});
     require_in("draw.ground", "width_px", params.width_px, Range::between(200, 8000), "pixels");
     require_in("draw.ground", "shading", params.shading, Range::between(0.0, 1.0));
-    Grid const& grid = sheet.dem.grid();
+    Grid const& grid = whole_grid(sheet);
     constexpr std::int64_t longest = 16;
     refuse_if<BadInput>(
         grid.width < 2 || grid.height < 2 || grid.height - 1 > longest * (grid.width - 1) ||
@@ -719,19 +773,20 @@ Picture ground(MapSheet const& sheet, GroundParams const& params) {
                   px_per_cell * static_cast<double>(grid.height)}; // outer halves of cells lie beyond the picture
     Window const window{all, grid.west, grid.north, px_per_cell / grid.cell_m};
     double const unit = std::max(0.6, static_cast<double>(params.width_px) / 1400.0);
-    HeightRange const heights = height_range(sheet.dem);
+    HeightRange const heights = height_range(sheet);
+    double const px_per_shown = sheet.dem.grid().cell_m * window.px_per_m;
     Relief const relief = tinted_relief(sheet, heights, all.width, params.shading);
     return paint(params.width_px, height, Format::png, [&](Cairo* canvas) {
         fill_box(canvas, all, sheet.sea && sheet.sea->is_around ? deep_sea : no_data);
-        draw_relief(canvas, relief, all, px_per_cell);
+        draw_relief(canvas, relief, all, px_per_shown);
         draw_rivers(canvas, sheet, window, unit);
         if (sheet.sea && heights.holes > 0) {
             Mask const sea = holes_of(sheet.dem);
             Relief const depths = sea_depths(sea);
-            draw_water(canvas, shores_on_sheet(sea, window), &depths, all, px_per_cell, unit);
+            draw_water(canvas, shores_on_sheet(sea, window), &depths, all, px_per_shown, unit);
         }
         if (has_lakes(sheet)) {
-            draw_water(canvas, shores_on_sheet(*sheet.lakes, window), nullptr, all, px_per_cell, unit);
+            draw_water(canvas, shores_on_sheet(*sheet.lakes, window), nullptr, all, px_per_shown, unit);
         }
     });
 }

@@ -24,8 +24,8 @@
 // follow the cells' corners.
 // Source: ours. Contours are not computed here: the sheet has them (io/raster/dem_derivatives.hpp
 // lets GDAL trace them).
-// Cost: O(n) for the ground; numbers O(length of index contours on the sheet), times the numbers
-// placed. One thread.
+// Cost: O(n) for the ground, of means over coarser cells (whole) where n is more than the pixels;
+// numbers O(length of index contours on the sheet), times the numbers placed. One thread.
 // Not for: comparing bytes between machines: text uses the fonts that each has. The ground alone,
 // as a texture for 3D programs: ground(). Net and hidden lines: wireframe.hpp.
 // Example:
@@ -74,6 +74,13 @@ struct SpotHeight {
     double z = 0.0; ///< [m]
 };
 
+/// The DEM of which a sheet shows means over coarser cells.
+struct WholeDem {
+    Grid grid;
+    double low_m = 0.0; ///< lowest height; low > high: none
+    double high_m = 0.0;
+};
+
 /// The content of a map. hillshade has the DEM's grid, 0: no data.
 struct MapSheet {
     Raster<float> const& dem;
@@ -87,7 +94,15 @@ struct MapSheet {
     std::optional<Sea> sea = {};               ///< none: cells without a height are light grey
     Mask const* lakes = nullptr;               ///< on the DEM's grid; null or without cells: none
     std::vector<SpotHeight> spot_heights = {}; ///< the most important first: those without room are left out
+    /// what dem is an average of (box_means()), whose cells and heights the map states; none: of nothing
+    std::optional<WholeDem> whole = {};
 };
+
+/// \param grid of a DEM
+/// \param params width and format of a map
+/// \return columns of pixels that the map has for the DEM, of half pixels in a format that can be scaled: more cells in
+/// a row are not seen
+std::int64_t columns_of_map(Grid const& grid, MapParams const& params = {});
 
 /// Draws a map: hillshade under a hypsometric tint, contours with heights on index contours, ridges as thin brown
 /// lines, rivers whose width and colour follow their contributing area (Strahler order if no area is known), sea and
@@ -103,6 +118,11 @@ struct GroundParams {
     int width_px = 2048;   ///< [200, 8000]; the height follows
     double shading = 0.45; ///< [0, 1] share of a map's light and shade: 3D programs add their own
 };
+
+/// \param grid of a DEM
+/// \param params width of its picture
+/// \return columns of pixels as columns_of_map()
+std::int64_t columns_of_ground(Grid const& grid, GroundParams const& params = {});
 
 /// Draws what a map shows of the ground, alone, as a texture: tinted and shaded relief, rivers, sea and lakes, without
 /// contours, ridges, heights or a frame. Its corners are the centres of the DEM's corner cells.

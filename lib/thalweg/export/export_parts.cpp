@@ -62,22 +62,19 @@ Lattice sampled(report::Scene const& scene, ExportSize size, ExportResult& made,
 std::string texture_of(report::Scene const& scene, Run const& run) {
     run.at(0.0, "texture");
     Raster<float> const& dem = *scene.dem;
-    draw::MapSheet sheet{dem,
-                         io::hillshade(dem),
-                         scene.network ? &*scene.network : nullptr,
-                         scene.network ? &scene.orders : nullptr,
-                         {},
-                         nullptr,
-                         scene.ds_area_m2};
-    sheet.lakes = &scene.lakes;
-    if (scene.sea) {
-        sheet.sea = draw::Sea{scene.sea->is_around};
-    }
     constexpr double longer_px = 2048.0;
     constexpr double least_px = 200.0;
     double const shape = static_cast<double>(dem.width() - 1) / static_cast<double>(dem.height() - 1);
     draw::GroundParams params;
     params.width_px = static_cast<int>(std::max(least_px, std::floor(longer_px * std::min(1.0, shape) + 0.5)));
+    report::ShownLand const land(dem, scene.lakes, draw::columns_of_ground(dem.grid(), params), run);
+    draw::MapSheet sheet = land.sheet();
+    sheet.network = scene.network ? &*scene.network : nullptr;
+    sheet.orders = scene.network ? &scene.orders : nullptr;
+    sheet.areas_m2 = scene.ds_area_m2;
+    if (scene.sea) {
+        sheet.sea = draw::Sea{scene.sea->is_around};
+    }
     return draw::ground(sheet, params).bytes;
 }
 

@@ -75,11 +75,6 @@ WebHeights without_holes(report::Scene const& scene, std::vector<Finding>& findi
 std::string web_picture(report::Scene const& scene, Run const& run) {
     run.at(0.0, "texture");
     Raster<float> const& dem = *scene.dem;
-    draw::MapSheet sheet{dem, io::hillshade(dem), nullptr, nullptr, {}, nullptr};
-    sheet.lakes = &scene.lakes;
-    if (scene.sea) {
-        sheet.sea = draw::Sea{scene.sea->is_around};
-    }
     constexpr double least_px = 200.0;
     constexpr double fewest_px = 1024.0; // of the longer side
     constexpr double most_px = 6000.0;
@@ -90,6 +85,11 @@ std::string web_picture(report::Scene const& scene, Run const& run) {
     draw::GroundParams params;
     params.shading = 0.8; // the page adds none
     params.width_px = static_cast<int>(std::max(least_px, std::floor(longer_px * shape + 0.5)));
+    report::ShownLand const land(dem, scene.lakes, draw::columns_of_ground(dem.grid(), params), run);
+    draw::MapSheet sheet = land.sheet();
+    if (scene.sea) {
+        sheet.sea = draw::Sea{scene.sea->is_around};
+    }
     return draw::ground(sheet, params).bytes;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include <thalweg/core/box_means.hpp>
 #include <thalweg/measure/peaks/orometry.hpp>
 #include <thalweg/recipe/condition.hpp>
 
@@ -23,19 +24,40 @@ std::optional<std::pair<double, double>> height_range(Raster<float> const& dem) 
     return high >= low ? std::optional(std::pair(low, high)) : std::nullopt;
 }
 
+namespace {
+
+constexpr std::int64_t most_cells = 1024; ///< a side: a sixteenth of it, which summits keep apart, is 64 cells
+
+Cell highest_in(Raster<float> const& dem, Cell block, std::int64_t side) {
+    Cell highest{block.col * side, block.row * side};
+    for (std::int64_t row = block.row * side; row < std::min((block.row + 1) * side, dem.height()); ++row) {
+        for (std::int64_t col = block.col * side; col < std::min((block.col + 1) * side, dem.width()); ++col) {
+            Cell const c{col, row};
+            highest = std::isnan(dem[highest]) || dem[c] > dem[highest] ? c : highest;
+        }
+    }
+    return highest;
+}
+
+} // namespace
+
 std::vector<Summit> summits(Raster<float> const& dem, std::size_t most, Run const& run) {
     auto const range = height_range(dem);
     if (!range || range->first == range->second) {
         return {};
     }
-    std::vector<measure::Peak> peaks = measure::prominent_peaks(dem, (range->second - range->first) / 20.0, run);
+    Grid const& grid = dem.grid();
+    std::int64_t const longest = std::max(grid.width, grid.height);
+    std::int64_t const side = (longest + most_cells - 1) / most_cells;
+    Raster<float> const maxima = side > 1 ? block_maxima(dem, side, run) : Raster<float>{};
+    Raster<float> const& land = side > 1 ? maxima : dem;
+    std::vector<measure::Peak> peaks = measure::prominent_peaks(land, (range->second - range->first) / 20.0, run);
     std::stable_sort(peaks.begin(), peaks.end(),
                      [](auto const& a, auto const& b) { return a.prominence_m > b.prominence_m; });
-    Grid const& grid = dem.grid();
-    double const apart = static_cast<double>(std::max(grid.width, grid.height)) * grid.cell_m / 16.0;
+    double const apart = static_cast<double>(longest) * grid.cell_m / 16.0;
     std::vector<Summit> chosen;
     for (measure::Peak const& peak : peaks) {
-        Vec2 const at = grid.centre(grid.at(peak.cell));
+        Vec2 const at = grid.centre(highest_in(dem, land.grid().at(peak.cell), side));
         if (chosen.size() < most &&
             std::ranges::none_of(chosen, [&](Summit const& s) { return distance(s.at, at) < apart; })) {
             chosen.push_back({at, peak.height_m});

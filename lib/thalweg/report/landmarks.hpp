@@ -27,7 +27,8 @@ struct Summit {
 inline constexpr std::size_t summits_named = 24; ///< by maps and the page
 
 /// Chooses the summits that a map names: those whose prominence is a twentieth of the relief or more, none nearer than
-/// a sixteenth of the longer side to a more prominent one.
+/// a sixteenth of the longer side to a more prominent one. Of a DEM of more than 1024 cells a side the highest cells of
+/// blocks are compared: saddles between them are less deep than on the DEM itself.
 /// \param dem [m] NaN: no data
 /// \param most number of summits at most
 /// \return the most prominent first, the highest of all at the front

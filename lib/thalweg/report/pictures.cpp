@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/box_means.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/draw/diagrams.hpp>
 #include <thalweg/draw/map.hpp>
@@ -37,16 +38,17 @@ double relief_of(Raster<float> const& dem) {
 draw::Picture draw_map(Scene const& scene, Look const& look, Run const& run) {
     Raster<float> const& dem = *scene.dem;
     double const interval = scene.contour_interval_m > 0.0 ? scene.contour_interval_m : round_interval(relief_of(dem));
-    draw::MapSheet sheet{dem, io::hillshade(dem), network_of(scene), orders_of(scene), {}, nullptr, scene.ds_area_m2};
-    for (io::ContourLine& contour : io::contours(dem, interval, run)) {
-        sheet.contours.emplace_back(contour.z, std::move(contour.line));
-    }
-    sheet.lakes = &scene.lakes;
     draw::MapParams params;
     params.title = scene.title;
-    params.contour_interval_m = sheet.contours.empty() ? 0.0 : interval;
     params.format = look.format;
     params.width_px = look.width_px > 0 ? look.width_px : params.width_px;
+    ShownLand const land(dem, scene.lakes, draw::columns_of_map(dem.grid(), params), run);
+    draw::MapSheet sheet = land.sheet();
+    sheet.network = network_of(scene);
+    sheet.orders = orders_of(scene);
+    sheet.areas_m2 = scene.ds_area_m2;
+    sheet.contours = land.contours(interval, run);
+    params.contour_interval_m = sheet.contours.empty() ? 0.0 : interval;
     return draw_land(std::move(sheet), scene.sea, summits(dem, summits_named, run), params);
 }
 
@@ -109,6 +111,36 @@ char const* name_of(PictureKind kind) {
     case PictureKind::wireframe: break;
     }
     return "wireframe";
+}
+
+ShownLand::ShownLand(Raster<float> const& dem, Mask const& lakes, std::int64_t columns, Run const& run)
+    : dem_(dem), lakes_(lakes) {
+    if (dem.width() > columns) {
+        means_ = box_means(dem, columns, run);
+        if (lakes.cells() > 0) {
+            lakes_shown_ = box_means(lakes, columns, run);
+        }
+        auto const heights = height_range(dem).value_or(std::pair(1.0, 0.0));
+        whole_ = draw::WholeDem{dem.grid(), heights.first, heights.second};
+    }
+    hillshade_ = io::hillshade(this->dem());
+}
+
+draw::MapSheet ShownLand::sheet() const {
+    draw::MapSheet sheet{dem(), hillshade_, nullptr, nullptr, {}};
+    sheet.lakes = is_whole() ? &lakes_ : &lakes_shown_;
+    sheet.whole = whole_;
+    return sheet;
+}
+
+std::vector<std::pair<double, std::vector<Vec2>>> ShownLand::contours(double interval_m, Run const& run) const {
+    std::int64_t const half = std::max<std::int64_t>(1, means_.width() / 2);
+    Raster<float> const smooth = is_whole() ? Raster<float>{} : box_means(means_, half, run);
+    std::vector<std::pair<double, std::vector<Vec2>>> lines;
+    for (io::ContourLine& contour : io::contours(is_whole() ? dem_ : smooth, interval_m, run)) {
+        lines.emplace_back(contour.z, std::move(contour.line));
+    }
+    return lines;
 }
 
 draw::Picture draw_land(draw::MapSheet sheet, std::optional<Sea> const& sea, std::vector<Summit> const& summits,

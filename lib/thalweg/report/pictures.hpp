@@ -62,6 +62,33 @@ std::string missing_for(PictureKind kind, Scene const& scene);
 /// \throws BadInput when a part of the scene is missing; as the pictures
 draw::Picture draw_picture(PictureKind kind, Scene const& scene, Look const& look, Run const& run = {});
 
+/// What a picture shows of a DEM: the DEM itself, or means of its heights where it has more columns than the picture
+/// has pixels.
+/// \internal
+class ShownLand {
+public:
+    /// \param dem outlives this object
+    /// \param lakes on its grid, or without cells; outlives this object
+    /// \param columns of pixels, > 0
+    ShownLand(Raster<float> const& dem, Mask const& lakes, std::int64_t columns, Run const& run = {});
+
+    bool is_whole() const { return means_.cells() == 0; }
+    Raster<float> const& dem() const { return is_whole() ? dem_ : means_; }
+    /// \return heights, hillshade and lakes; needs this object
+    draw::MapSheet sheet() const;
+    /// \return height and line of the contours of what is shown: of means over two pixels, where finer ones would be a
+    /// tangle
+    std::vector<std::pair<double, std::vector<Vec2>>> contours(double interval_m, Run const& run = {}) const;
+
+private:
+    Raster<float> const& dem_;
+    Mask const& lakes_;
+    Raster<float> means_; ///< without cells: the DEM is shown
+    Mask lakes_shown_;
+    Raster<std::uint8_t> hillshade_;
+    std::optional<draw::WholeDem> whole_;
+};
+
 /// Draws a map with what every map of a terrain has: the sea, heights of summits, its coordinate system in words.
 /// \param sheet the rest of the map
 /// \param sea of the terrain

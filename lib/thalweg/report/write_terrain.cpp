@@ -192,15 +192,21 @@ private:
 
 draw::Picture map_with(make::MakeResult const& t, SurfaceParts& parts, draw::MapParams map, Run const& run) {
     Raster<float> const& dem = t.terrain.ground.dem;
-    Raster<std::uint8_t> const shade = io::hillshade(dem);
-    draw::MapSheet sheet{
-        dem, shade, network_of(t), orders_of(t), {}, &t.terrain.ground.ridges, t.terrain.water.areas.ds_area_m2};
-    for (auto const& [z, line] : parts.contours(run)) {
-        sheet.contours.emplace_back(z, line);
-    }
     Mask const lakes = t.terrain.bed.lakes > 0 ? make::lake_cells(t.terrain.bed.channels) : Mask{};
-    sheet.lakes = &lakes;
+    ShownLand const land(dem, lakes, draw::columns_of_map(dem.grid(), map), run);
+    draw::MapSheet sheet = land.sheet();
+    sheet.network = network_of(t);
+    sheet.orders = orders_of(t);
+    sheet.ridges = &t.terrain.ground.ridges;
+    sheet.areas_m2 = t.terrain.water.areas.ds_area_m2;
     map.contour_interval_m = contour_interval_m(t);
+    if (land.is_whole()) {
+        for (auto const& [z, line] : parts.contours(run)) {
+            sheet.contours.emplace_back(z, line);
+        }
+    } else {
+        sheet.contours = land.contours(map.contour_interval_m, run);
+    }
     return draw_land(std::move(sheet), sea_of(t.terrain), parts.summits(run), map);
 }
 

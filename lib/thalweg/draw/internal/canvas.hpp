@@ -50,6 +50,9 @@ void fill_box(Cairo* sheet, Box box, Colour colour);
 void frame_box(Cairo* sheet, Box box, double line_width, Colour colour);
 void draw_line(Cairo* sheet, Vec2 from, Vec2 to, double line_width, Colour colour);
 
+/// What lies far off the sheet, at a million pixels.
+Vec2 near_sheet(Vec2 p);
+
 /// Appends a polyline to the path. Vertices closer than a quarter pixel to the previous one are dropped; corners are
 /// rounded within corner_px of their vertex. Coordinates far outside the sheet are clamped to 1e6 px.
 void trace_line(Cairo* sheet, std::vector<Vec2> const& line, double corner_px);

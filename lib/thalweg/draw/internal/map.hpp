@@ -22,6 +22,9 @@ struct HeightRange {
 
 HeightRange height_range(Raster<float> const& dem);
 
+/// \return the heights of the whole DEM, and the holes of what the sheet shows of it
+HeightRange height_range(MapSheet const& sheet);
+
 struct Relief {
     std::vector<std::uint32_t> pixels; ///< premultiplied ARGB, row-major from the north-west
     int width = 0;                     ///< [px]
@@ -51,6 +54,8 @@ struct LineStyle {
 enum class ContourKind : std::uint8_t { ordinary, index };
 
 ContourKind kind_of_contour(double height_m, double interval_m);
+
+/// Places a line on the sheet, without the vertices that nobody sees: those less than 0.2 px from the others' line.
 std::vector<Vec2> on_sheet(std::vector<Vec2> const& line, Window const& window);
 
 /// A small triangle around a place.

@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/core/box_means.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace thalweg {
+namespace {
+
+/// The cells from begin to end, of which the first and the last count in part.
+struct Stretch {
+    std::int64_t begin = 0;
+    std::int64_t end = 0;
+    double first = 1.0;
+    double last = 1.0; ///< of a single cell: 1, and first is its whole share
+
+    double weight(std::int64_t i) const { return (i == begin ? first : 1.0) * (i + 1 == end ? last : 1.0); }
+};
+
+/// \param side [fine cells] of a coarse cell, >= 1
+/// \param count of fine cells
+Stretch stretch_of(std::int64_t coarse, double side, std::int64_t count) {
+    constexpr double rounding = 1e-9;
+    double const from = static_cast<double>(coarse) * side;
+    double const to = std::min(from + side, static_cast<double>(count));
+    Stretch out;
+    out.begin = std::min(static_cast<std::int64_t>(from + rounding), count - 1);
+    out.end = std::clamp(static_cast<std::int64_t>(std::ceil(to - rounding)), out.begin + 1, count);
+    bool const is_one = out.end == out.begin + 1;
+    out.first = std::max(rounding, std::min(to, static_cast<double>(out.begin + 1)) - from);
+    out.last = is_one ? 1.0 : to - static_cast<double>(out.end - 1);
+    return out;
+}
+
+/// Sums along columns of fine cells, and what they weigh.
+struct Sums {
+    std::vector<double> sum;
+    std::vector<double> weight;
+};
+
+void add_row(std::span<float const> row, double weight, Sums& sums) {
+    for (std::size_t c = 0; c < row.size(); ++c) {
+        double const share = std::isnan(row[c]) ? 0.0 : weight;
+        double const value = std::isnan(row[c]) ? 0.0 : static_cast<double>(row[c]);
+        sums.sum[c] += share * value;
+        sums.weight[c] += share;
+    }
+}
+
+void add_row(std::span<std::uint8_t const> row, double weight, Sums& sums) {
+    for (std::size_t c = 0; c < row.size(); ++c) {
+        sums.sum[c] += row[c] != 0 ? weight : 0.0;
+        sums.weight[c] += weight;
+    }
+}
+
+/// Calls put(coarse cell, sum, weight, area) for every cell.
+template <class T, class Put> void each_mean(Raster<T> const& fine, Grid const& grid, Run const& run, Put const& put) {
+    double const side = static_cast<double>(fine.width()) / static_cast<double>(grid.width);
+    std::vector<Stretch> across;
+    for (std::int64_t col = 0; col < grid.width; ++col) {
+        across.push_back(stretch_of(col, side, fine.width()));
+    }
+    constexpr std::int64_t grain = 16;
+    parallel_ranges(run, grid.height, grain, [&](std::int64_t first, std::int64_t last) {
+        Sums sums{std::vector<double>(fine.width()), std::vector<double>(fine.width())};
+        for (std::int64_t row = first; row < last; ++row) {
+            std::ranges::fill(sums.sum, 0.0);
+            std::ranges::fill(sums.weight, 0.0);
+            Stretch const down = stretch_of(row, side, fine.height());
+            double tall = 0.0;
+            for (std::int64_t r = down.begin; r < down.end; ++r) {
+                add_row(fine.row(r), down.weight(r), sums);
+                tall += down.weight(r);
+            }
+            for (std::int64_t col = 0; col < grid.width; ++col) {
+                Stretch const& cells = across[static_cast<std::size_t>(col)];
+                double sum = 0.0;
+                double weight = 0.0;
+                double wide = 0.0;
+                for (std::int64_t c = cells.begin; c < cells.end; ++c) {
+                    double const share = cells.weight(c);
+                    sum += share * sums.sum[static_cast<std::size_t>(c)];
+                    weight += share * sums.weight[static_cast<std::size_t>(c)];
+                    wide += share;
+                }
+                put(Cell{col, row}, sum, weight, wide * tall);
+            }
+        }
+    });
+}
+
+constexpr double half = 0.5 - 1e-9;
+
+} // namespace
+
+Grid coarser(Grid const& grid, std::int64_t columns) {
+    Grid out = grid;
+    double const side = static_cast<double>(grid.width) / static_cast<double>(columns);
+    out.width = columns;
+    out.height =
+        std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(static_cast<double>(grid.height) / side - 1e-6)));
+    out.cell_m = grid.cell_m * side;
+    return out;
+}
+
+Raster<float> box_means(Raster<float> const& fine, std::int64_t columns, Run const& run) {
+    Raster<float> out(coarser(fine.grid(), columns));
+    each_mean(fine, out.grid(), run, [&](Cell c, double sum, double weight, double area) {
+        out[c] = weight > 0.0 && weight >= half * area ? static_cast<float>(sum / weight)
+                                                       : std::numeric_limits<float>::quiet_NaN();
+    });
+    return out;
+}
+
+Mask box_means(Mask const& fine, std::int64_t columns, Run const& run) {
+    Mask out(coarser(fine.grid(), columns));
+    each_mean(fine, out.grid(), run, [&](Cell c, double sum, double weight, double /*area*/) {
+        out[c] = sum > 0.0 && sum >= half * weight ? 1 : 0;
+    });
+    return out;
+}
+
+Raster<float> block_maxima(Raster<float> const& fine, std::int64_t side, Run const& run) {
+    Grid grid = fine.grid();
+    grid.width = (grid.width + side - 1) / side;
+    grid.height = (grid.height + side - 1) / side;
+    grid.cell_m *= static_cast<double>(side);
+    Raster<float> out(grid, std::numeric_limits<float>::quiet_NaN());
+    constexpr std::int64_t grain = 16;
+    parallel_ranges(run, grid.height, grain, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t row = first * side; row < std::min(last * side, fine.height()); ++row) {
+            auto const from = fine.row(row);
+            auto const to = out.row(row / side);
+            for (std::int64_t col = 0; col < grid.width; ++col) {
+                for (std::int64_t c = col * side; c < std::min((col + 1) * side, fine.width()); ++c) {
+                    to[col] = to[col] >= from[c] || std::isnan(from[c]) ? to[col] : from[c];
+                }
+            }
+        }
+    });
+    return out;
+}
+
+} // namespace thalweg

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/core/box_means.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include <support.hpp>
+
+namespace box_means_test {
+
+using namespace thalweg;
+
+namespace {
+
+constexpr float none = std::numeric_limits<float>::quiet_NaN();
+
+/// The length that two intervals share.
+double shared(double a, double b, double c, double d) {
+    return std::max(0.0, std::min(b, d) - std::max(a, c));
+}
+
+/// The mean of every coarse cell, from the definition.
+Raster<float> means_slowly(Raster<float> const& fine, std::int64_t columns) {
+    double const side = static_cast<double>(fine.width()) / static_cast<double>(columns);
+    Raster<float> out(coarser(fine.grid(), columns));
+    for (std::int64_t i = 0; i < out.cells(); ++i) {
+        Cell const c = out.grid().at(i);
+        double sum = 0.0;
+        double weight = 0.0;
+        double area = 0.0;
+        for (std::int64_t k = 0; k < fine.cells(); ++k) {
+            Cell const f = fine.grid().at(k);
+            auto const [col, row] = std::pair(static_cast<double>(f.col), static_cast<double>(f.row));
+            auto const [west, north] = std::pair(static_cast<double>(c.col) * side, static_cast<double>(c.row) * side);
+            double const share =
+                shared(col, col + 1.0, west, west + side) * shared(row, row + 1.0, north, north + side);
+            area += share;
+            weight += std::isnan(fine[k]) ? 0.0 : share;
+            sum += std::isnan(fine[k]) ? 0.0 : share * static_cast<double>(fine[k]);
+        }
+        out[i] = weight >= 0.5 * area - 1e-9 ? static_cast<float>(sum / weight) : none;
+    }
+    return out;
+}
+
+/// A rough land with holes.
+Raster<float> rough(std::int64_t width, std::int64_t height) {
+    Raster<float> dem(Grid{width, height, 10.0, 100.0, 900.0, ""});
+    for (std::int64_t i = 0; i < dem.cells(); ++i) {
+        dem[i] = (i * 37 + 11) % 23 < 6 ? none : static_cast<float>((i * 7919) % 101);
+    }
+    return dem;
+}
+
+} // namespace
+
+TEST(BoxMeans, AreTheMeansOfWhatTheCoarseCellsCover) {
+    for (auto const& [width, height] : {std::pair<std::int64_t, std::int64_t>{1, 1}, {7, 5}, {16, 9}, {9, 16}}) {
+        Raster<float> const fine = rough(width, height);
+        for (std::int64_t columns = 1; columns <= width; ++columns) {
+            Raster<float> const means = box_means(fine, columns);
+            Raster<float> const slow = means_slowly(fine, columns);
+            ASSERT_EQ(means.grid(), slow.grid());
+            EXPECT_NEAR(means.grid().east(), fine.grid().east(), 1e-9);
+            EXPECT_LE(means.grid().south(), fine.grid().south() + 1e-3);
+            for (std::int64_t i = 0; i < means.cells(); ++i) {
+                EXPECT_EQ(std::isnan(means[i]), std::isnan(slow[i])) << width << " to " << columns << ", cell " << i;
+                if (!std::isnan(slow[i])) {
+                    EXPECT_NEAR(means[i], slow[i], 1e-4) << width << " to " << columns << ", cell " << i;
+                }
+            }
+        }
+    }
+}
+
+TEST(BoxMeans, OfAsManyColumnsAreTheRasterItself) {
+    Raster<float> const fine = rough(13, 40);
+    Raster<float> const same = box_means(fine, 13);
+    ASSERT_EQ(same.grid(), fine.grid());
+    EXPECT_EQ(std::memcmp(same.values().data(), fine.values().data(), sizeof(float) * fine.values().size()), 0);
+}
+
+TEST(BoxMeans, DoNotDependOnThreads) {
+    Raster<float> const fine = rough(300, 411);
+    thalweg::Run many;
+    many.threads = 5;
+    thalweg::Run one;
+    one.threads = 1;
+    Raster<float> const a = box_means(fine, 97, many);
+    Raster<float> const b = box_means(fine, 97, one);
+    EXPECT_EQ(std::memcmp(a.values().data(), b.values().data(), sizeof(float) * a.values().size()), 0);
+}
+
+TEST(BoxMeans, OfAMaskMarkWhatIsMarkedByHalf) {
+    Mask fine(Grid{4, 2, 1.0, 0.0, 2.0, ""});
+    fine[Cell{0, 0}] = fine[Cell{1, 1}] = fine[Cell{2, 0}] = 1;
+    Mask const half = box_means(fine, 2);
+    ASSERT_EQ(half.cells(), 2);
+    EXPECT_EQ(half[0], 1);
+    EXPECT_EQ(half[1], 0);
+}
+
+TEST(BlockMaxima, AreTheHighestOfEachBlock) {
+    Raster<float> const fine = rough(11, 7);
+    Raster<float> const maxima = block_maxima(fine, 3);
+    ASSERT_EQ(maxima.width(), 4);
+    ASSERT_EQ(maxima.height(), 3);
+    for (std::int64_t i = 0; i < maxima.cells(); ++i) {
+        Cell const c = maxima.grid().at(i);
+        float highest = none;
+        for (std::int64_t k = 0; k < fine.cells(); ++k) {
+            Cell const f = fine.grid().at(k);
+            if (f.col / 3 == c.col && f.row / 3 == c.row && !std::isnan(fine[k])) {
+                highest = std::isnan(highest) ? fine[k] : std::max(highest, fine[k]);
+            }
+        }
+        EXPECT_EQ(std::isnan(maxima[i]), std::isnan(highest));
+        if (!std::isnan(highest)) {
+            EXPECT_EQ(maxima[i], highest);
+        }
+    }
+    EXPECT_TRUE(std::isnan(block_maxima(Raster<float>(Grid{2, 2, 1.0, 0.0, 2.0, ""}, none), 2)[0]));
+}
+
+} // namespace box_means_test
