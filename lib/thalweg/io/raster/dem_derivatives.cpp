@@ -28,7 +28,7 @@ Raster<std::uint8_t> hillshade(Raster<float> const& dem, double z_factor, Light 
     std::string const what = "io.hillshade";
     require_in(what, "z_factor", z_factor, Range::above(0.0).or_infinite());
     Driver const driver;
-    Dataset const source = in_memory(dem, what);
+    Dataset const source = dataset_of(dem, what);
     CPLStringList arguments;
     for (std::string const& argument : {std::string("-of"), std::string("MEM"), std::string("-compute_edges"),
                                         std::string("-z"), fmt::format("{}", z_factor)}) {
@@ -121,7 +121,7 @@ std::vector<ContourLine> contours(Raster<float> const& dem, double interval_m, R
     std::string const what = "io.contours";
     require_few_levels(dem, interval_m);
     Driver const driver;
-    Dataset const source = in_memory(dem, what);
+    Dataset const source = dataset_of(dem, what);
     if (std::ranges::all_of(dem.values(), [](float z) { return std::isnan(z); })) {
         return {}; // GDAL 3.9 rejects such a raster
     }

@@ -307,26 +307,6 @@ void require_numbers(Raster<std::int32_t> const& numbers, std::int64_t count, st
     }
 }
 
-Dataset numbers_in_memory(Raster<std::int32_t> const& numbers, std::string const& what) {
-    require_size(numbers.grid(), what);
-    Dataset dataset(GetGDALDriverManager()->GetDriverByName("MEM")->Create(
-        "", static_cast<int>(numbers.width()), static_cast<int>(numbers.height()), 1, GDT_Int32, nullptr));
-    refuse_if<IoError>(dataset == nullptr, "{}: no memory for {} x {} cells", what, numbers.width(), numbers.height());
-    set_frame(*dataset, numbers.grid());
-    GDALRasterBand& band = *dataset->GetRasterBand(1);
-    band.SetNoDataValue(none);
-    std::vector<std::int32_t> line(static_cast<std::size_t>(numbers.width()));
-    for (std::int64_t row = 0; row < numbers.height(); ++row) {
-        auto const from = numbers.row(row);
-        std::transform(from.begin(), from.end(), line.begin(), [](std::int32_t n) { return std::max(n, none); });
-        refuse_if<IoError>(band.RasterIO(GF_Write, 0, static_cast<int>(row), static_cast<int>(numbers.width()), 1,
-                                         line.data(), static_cast<int>(numbers.width()), 1, GDT_Int32, 0, 0,
-                                         nullptr) != CE_None,
-                           "{}: no copy in memory", what);
-    }
-    return dataset;
-}
-
 Polygon taken(OGRPolygon const& drawn, std::int64_t number) {
     Polygon polygon{number, {}};
     for (auto const* const ring : drawn) {
@@ -337,6 +317,37 @@ Polygon taken(OGRPolygon const& drawn, std::int64_t number) {
         polygon.rings.push_back(std::move(positions));
     }
     return polygon;
+}
+
+/// As polygonise(), of the numbers that number_of gives for those of the cells.
+template <class NumberOf>
+std::vector<std::vector<Polygon>> outlines_of(Raster<std::int32_t> const& cells, std::int64_t count,
+                                              NumberOf const& number_of, Run const& run) {
+    std::string const what = "io.polygonise";
+    Driver const driver;
+    RowPart<std::int32_t> const part = [&](std::int64_t row, std::int64_t col, std::span<std::int32_t> to) {
+        auto const from = cells.row(row).subspan(static_cast<std::size_t>(col), to.size());
+        std::ranges::transform(from, to.begin(), number_of);
+    };
+    Dataset const source = dataset_of(cells.grid(), none, part);
+    Dataset const drawn(GetGDALDriverManager()->GetDriverByName("Memory")->Create("", 0, 0, 0, GDT_Unknown, nullptr));
+    OGRLayer* const layer = drawn->CreateLayer("polygons", nullptr, wkbPolygon, nullptr);
+    OGRFieldDefn field("number", OFTInteger);
+    layer->CreateField(&field);
+    GDALRasterBand& band = *source->GetRasterBand(1);
+    GdalProgress gdal_progress(run, "outline");
+    CPLErr const error = GDALPolygonize(GDALRasterBand::ToHandle(&band), GDALRasterBand::ToHandle(band.GetMaskBand()),
+                                        OGRLayer::ToHandle(layer), 0, nullptr, &GdalProgress::step, &gdal_progress);
+    gdal_progress.settle();
+    driver.check(what);
+    refuse_if<IoError>(error != CE_None, "{} failed", what);
+    std::vector<std::vector<Polygon>> polygons(count);
+    for (auto const& feature : *layer) {
+        auto const number = feature->GetFieldAsInteger64(0);
+        polygons[number].push_back(taken(*feature->GetGeometryRef()->toPolygon(), number));
+    }
+    driver.check(what); // a failed allocation also ends the loop
+    return polygons;
 }
 
 using Kind = Column::Kind;
@@ -501,26 +512,9 @@ std::vector<Polygon> united(std::vector<Polygon> polygons, double gap_m) {
 std::vector<std::vector<Polygon>> polygonise(Raster<std::int32_t> const& numbers, std::int64_t count, Run const& run) {
     std::string const what = "io.polygonise";
     require_numbers(numbers, count, what);
-    Driver const driver;
-    Dataset const source = numbers_in_memory(numbers, what);
-    Dataset const drawn(GetGDALDriverManager()->GetDriverByName("Memory")->Create("", 0, 0, 0, GDT_Unknown, nullptr));
-    OGRLayer* const layer = drawn->CreateLayer("polygons", nullptr, wkbPolygon, nullptr);
-    OGRFieldDefn field("number", OFTInteger);
-    layer->CreateField(&field);
-    GDALRasterBand& band = *source->GetRasterBand(1);
-    GdalProgress gdal_progress(run, "outline");
-    CPLErr const error = GDALPolygonize(GDALRasterBand::ToHandle(&band), GDALRasterBand::ToHandle(band.GetMaskBand()),
-                                        OGRLayer::ToHandle(layer), 0, nullptr, &GdalProgress::step, &gdal_progress);
-    gdal_progress.settle();
-    driver.check(what);
-    refuse_if<IoError>(error != CE_None, "{} failed", what);
-    std::vector<std::vector<Polygon>> polygons(count);
-    for (auto const& feature : *layer) {
-        auto const number = feature->GetFieldAsInteger64(0);
-        polygons[number].push_back(taken(*feature->GetGeometryRef()->toPolygon(), number));
-    }
-    driver.check(what); // a failed allocation also ends the loop
-    return polygons;
+    require_size(numbers.grid(), what);
+    return outlines_of(
+        numbers, count, [](std::int32_t n) { return std::max(n, none); }, run);
 }
 
 Raster<std::int32_t> basins_by_cell(CatchmentTables const& tables) {
@@ -545,8 +539,10 @@ CatchmentCount write_catchments(CatchmentTables const& tables, std::string const
     }
     std::vector<std::int32_t> basin_of_row;
     auto const basins = basins_of(tables.rows, basin_of_row);
-    Raster<std::int32_t> const basin_number = numbered(tables.number, basin_of_row);
-    auto const shores = polygonise(basin_number, static_cast<std::int64_t>(basins.size()), run);
+    auto const basin_of = [&](std::int32_t row) {
+        return row < 0 ? none : basin_of_row[static_cast<std::size_t>(row)];
+    };
+    auto const shores = outlines_of(tables.number, static_cast<std::int64_t>(basins.size()), basin_of, run);
     count.catchments = static_cast<std::int64_t>(drawn.size());
     count.basins = static_cast<std::int64_t>(basins.size());
 

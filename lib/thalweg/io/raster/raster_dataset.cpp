@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/io/raster/internal/raster_dataset.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gdal_priv.h>
 
 #include <thalweg/core/run/refuse.hpp>
@@ -30,27 +33,35 @@ void require_size(Grid const& grid, std::string const& what) {
                         "{}: a raster of {} x {} cells", what, grid.width, grid.height);
 }
 
-Dataset in_memory(Raster<float> const& dem, std::string const& what) {
-    require_size(dem.grid(), what);
-    Dataset dataset(GetGDALDriverManager()->GetDriverByName("MEM")->Create(
-        "", static_cast<int>(dem.width()), static_cast<int>(dem.height()), 1, GDT_Float32, nullptr));
-    refuse_if<IoError>(dataset == nullptr, "{}: no memory for {} x {} cells", what, dem.width(), dem.height());
-    set_frame(*dataset, dem.grid());
-    GDALRasterBand& band = *dataset->GetRasterBand(1);
-    band.SetNoDataValue(static_cast<double>(nodata_height));
-    std::vector<float> line(static_cast<std::size_t>(dem.width()));
-    for (std::int64_t row = 0; row < dem.height(); ++row) {
-        for (std::size_t col = 0; float const z : dem.row(row)) {
-            refuse_if<BadInput>(std::isinf(z) || z == nodata_height, "{}: the height at column {}, row {} is {}", what,
-                                col, row, z);
-            line[col++] = std::isnan(z) ? nodata_height : z;
-        }
-        refuse_if<IoError>(band.RasterIO(GF_Write, 0, static_cast<int>(row), static_cast<int>(dem.width()), 1,
-                                         line.data(), static_cast<int>(dem.width()), 1, GDT_Float32, 0, 0,
-                                         nullptr) != CE_None,
-                           "{}: no copy in memory", what);
-    }
+namespace {
+
+template <class T> Dataset framed(Grid const& grid, T no_data, RowPart<T> part) {
+    Dataset dataset = rows_dataset(grid.width, grid.height, no_data, std::move(part));
+    set_frame(*dataset, grid);
     return dataset;
+}
+
+} // namespace
+
+Dataset dataset_of(Grid const& grid, float no_data, RowPart<float> part) {
+    return framed(grid, no_data, std::move(part));
+}
+
+Dataset dataset_of(Grid const& grid, std::int32_t no_data, RowPart<std::int32_t> part) {
+    return framed(grid, no_data, std::move(part));
+}
+
+Dataset dataset_of(Raster<float> const& dem, std::string const& what) {
+    require_size(dem.grid(), what);
+    auto const bad = std::ranges::find_if(dem.values(), [](float z) { return std::isinf(z) || z == nodata_height; });
+    if (bad != dem.values().end()) {
+        Cell const c = dem.grid().at(bad - dem.values().begin());
+        throw BadInput(fmt::format("{}: the height at column {}, row {} is {}", what, c.col, c.row, *bad));
+    }
+    return dataset_of(dem.grid(), nodata_height, [&dem](std::int64_t row, std::int64_t col, std::span<float> part) {
+        auto const from = dem.row(row).subspan(static_cast<std::size_t>(col), part.size());
+        std::ranges::transform(from, part.begin(), [](float z) { return std::isnan(z) ? nodata_height : z; });
+    });
 }
 
 } // namespace thalweg::io

@@ -155,7 +155,7 @@ CPLStringList warp_arguments(Squares const& squares, Target target) {
 Raster<float> warp(Raster<float> const& heights, CellFrame frame, OGRSpatialReference const* own, Target target,
                    std::int64_t most_side, std::string const& what, Run const& run) {
     Driver const driver;
-    Dataset const source = in_memory(heights, what);
+    Dataset const source = dataset_of(heights, what);
     source->SetGeoTransform(frame.data());
     source->SetSpatialRef(own);
     Squares const squares = squares_for(*source, target, most_side, what, driver);

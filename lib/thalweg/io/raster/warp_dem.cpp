@@ -95,7 +95,7 @@ Raster<float> cut(Raster<float> const& dem, Grid const& grid) {
 
 Raster<float> warped(Raster<float> const& dem, Grid const& frame, std::string const& what, Run const& run) {
     Driver const driver;
-    Dataset const source = in_memory(dem, what);
+    Dataset const source = dataset_of(dem, what);
     std::string const wkt = wkt_of(frame.crs);
     CPLStringList words;
     auto const digits = [](double v) { return fmt::format("{:.17g}", v); };
@@ -138,7 +138,7 @@ Raster<float> warped(Raster<float> const& dem, Grid const& frame, std::string co
 
 Grid grid_around(Raster<float> const& dem, Grid const& lattice, std::string const& what) {
     Driver const driver;
-    return frame_for(*in_memory(dem, what), lattice, wkt_of(lattice.crs), what, driver);
+    return frame_for(*dataset_of(dem, what), lattice, wkt_of(lattice.crs), what, driver);
 }
 
 Raster<float> resample(Raster<float> const& dem, Grid const& grid, std::string const& what, Run const& run) {

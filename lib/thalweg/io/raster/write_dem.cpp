@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <type_traits>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gdal_priv.h>
@@ -15,6 +16,7 @@
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
+#include <thalweg/io/gdal/internal/written_file.hpp>
 #include <thalweg/io/raster/internal/raster_dataset.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 
@@ -29,7 +31,8 @@ void require_new(std::string const& path, std::string const& what) {
     }
 }
 
-void require(bool done, Driver const& driver, std::string const& what) {
+void require(bool done, Driver const& driver, WrittenFile const& file, std::string const& what) {
+    file.check(); // GDAL knows no reason
     if (!done) {
         driver.check(what);
         throw IoError(what + " could not be written");
@@ -44,7 +47,7 @@ void write_tiled(Raster<T> const& raster, GDALDataType type, std::optional<doubl
     require_new(path, what);
     require_size(raster.grid(), what);
     Driver const driver;
-    MemoryFile const file;
+    WrittenFile file(path, what);
     CPLStringList options;
     options.SetNameValue("COMPRESS", "DEFLATE");
     options.SetNameValue("TILED", "YES");
@@ -54,9 +57,9 @@ void write_tiled(Raster<T> const& raster, GDALDataType type, std::optional<doubl
         options.SetNameValue("NUM_THREADS", run.threads > 0 ? fmt::format("{}", run.threads).c_str() : "ALL_CPUS");
     }
     Dataset target(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
-        file.path().c_str(), static_cast<int>(raster.width()), static_cast<int>(raster.height()), 1, type,
+        file.name().c_str(), static_cast<int>(raster.width()), static_cast<int>(raster.height()), 1, type,
         options.List()));
-    require(target != nullptr, driver, what);
+    require(target != nullptr, driver, file, what);
     set_frame(*target, raster.grid());
     if (no_data) {
         target->GetRasterBand(1)->SetNoDataValue(*no_data);
@@ -66,18 +69,25 @@ void write_tiled(Raster<T> const& raster, GDALDataType type, std::optional<doubl
     int tile_width = 0;
     int tile_height = 0;
     target->GetRasterBand(1)->GetBlockSize(&tile_width, &tile_height);
+    std::vector<T> strip;
     for (int row = 0; row < height; row += tile_height) {
         run.at(static_cast<double>(row) / height, "write");
         int const rows = std::min(tile_height, height - row);
-        // GDAL uses one function for reading and writing, which takes no const buffer.
-        void* const cells = const_cast<T*>(raster.values().data()) + static_cast<std::int64_t>(row) * width;
-        require(target->GetRasterBand(1)->RasterIO(GF_Write, 0, row, width, rows, cells, width, rows, type, 0, 0,
+        auto const cells = raster.values().subspan(static_cast<std::size_t>(row) * static_cast<std::size_t>(width),
+                                                   static_cast<std::size_t>(rows) * static_cast<std::size_t>(width));
+        strip.assign(cells.begin(), cells.end());
+        if constexpr (std::is_floating_point_v<T>) {
+            std::ranges::replace_if(
+                strip, [](T v) { return std::isnan(v); }, static_cast<T>(no_data.value_or(0.0)));
+        }
+        require(target->GetRasterBand(1)->RasterIO(GF_Write, 0, row, width, rows, strip.data(), width, rows, type, 0, 0,
                                                    nullptr) == CE_None,
-                driver, what);
+                driver, file, what);
     }
     target.reset();
+    file.check();
     driver.check(what);
-    write_text(path, file.bytes());
+    file.close();
 }
 
 } // namespace
@@ -100,8 +110,8 @@ void write_dem(Raster<float> const& dem, std::string const& path, HeightUnit uni
     std::string const what = "io.write_dem: " + path;
     require_new(path, what);
     Driver const driver;
-    MemoryFile const file;
-    Dataset source = in_memory(dem, what);
+    WrittenFile file(path, what);
+    Dataset source = dataset_of(dem, what);
     source->GetRasterBand(1)->SetUnitType(name_of(unit));
     CPLStringList options;
     options.SetNameValue("COMPRESS", "DEFLATE");
@@ -112,13 +122,14 @@ void write_dem(Raster<float> const& dem, std::string const& path, HeightUnit uni
     options.SetNameValue("NUM_THREADS", run.threads > 0 ? fmt::format("{}", run.threads).c_str() : "ALL_CPUS");
     GdalProgress gdal_progress(run, "write dem.tif");
     Dataset target(GetGDALDriverManager()->GetDriverByName("COG")->CreateCopy(
-        file.path().c_str(), source.get(), TRUE, options.List(), &GdalProgress::step, &gdal_progress));
+        file.name().c_str(), source.get(), TRUE, options.List(), &GdalProgress::step, &gdal_progress));
     gdal_progress.settle();
-    require(target != nullptr, driver, what);
+    require(target != nullptr, driver, file, what);
     target.reset();
     source.reset();
+    file.check();
     driver.check(what);
-    write_text(path, file.bytes());
+    file.close();
 }
 
 void write_mask(Mask const& mask, std::string const& path, Run const& run) {
@@ -131,16 +142,14 @@ void write_codes(Raster<std::uint8_t> const& codes, std::string const& path, Run
 
 void write_field(Raster<double> const& field, std::string const& path, Run const& run) {
     constexpr auto no_data = static_cast<double>(nodata_height);
-    Raster<double> filled = field;
-    for (std::int64_t i = 0; i < filled.cells(); ++i) {
-        if (std::isinf(filled[i]) || filled[i] == no_data) {
-            Cell const c = filled.grid().at(i);
-            throw BadInput(fmt::format("io.write_field: {}: the number at column {}, row {} is {}", path, c.col, c.row,
-                                       filled[i]));
+    for (std::int64_t i = 0; i < field.cells(); ++i) {
+        if (std::isinf(field[i]) || field[i] == no_data) {
+            Cell const c = field.grid().at(i);
+            throw BadInput(
+                fmt::format("io.write_field: {}: the number at column {}, row {} is {}", path, c.col, c.row, field[i]));
         }
-        filled[i] = std::isnan(filled[i]) ? no_data : filled[i];
     }
-    write_tiled(filled, GDT_Float64, no_data, "io.write_field: ", path, run);
+    write_tiled(field, GDT_Float64, no_data, "io.write_field: ", path, run);
 }
 
 } // namespace thalweg::io
