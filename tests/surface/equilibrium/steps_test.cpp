@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <mutex>
 #include <set>
 #include <vector>
 
@@ -258,13 +259,15 @@ TEST(OrderCells, CountsWhatDrainsThrough) {
             for (std::size_t i = 0; i < cells; ++i) {
                 RC_ASSERT(level.area[i] == counted[i]);
             }
-            run.threads = 1; // bands one after another
             std::set<std::size_t> seen;
-            each_upstream(level, run, [&](std::size_t i) {
+            std::mutex one_at_a_time;
+            auto const visit = [&](std::size_t i) {
+                std::lock_guard const lock(one_at_a_time);
                 RC_ASSERT(seen.insert(i).second);
                 std::size_t const below = moved(i, offsets[static_cast<std::size_t>(level.direction[i])]);
                 RC_ASSERT(level.direction[below] == no_direction || seen.contains(below));
-            });
+            };
+            each_upstream(level, CellType::rim, run, visit, 5);
             RC_ASSERT(static_cast<std::ptrdiff_t>(seen.size()) == std::count_if(level.direction.begin(),
                                                                                 level.direction.end(),
                                                                                 [](std::int8_t d) { return d >= 0; }));

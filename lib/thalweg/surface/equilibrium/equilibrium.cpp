@@ -251,7 +251,6 @@ public:
                       : BoundaryCells{};
         set_boundary_heights(level, edge);
         run_.check();
-        Cells<Relaxation> steps;
         Pull pull;
         if (!level.crests.empty()) {
             pull.floor.assign(level.z.size(), -std::numeric_limits<float>::infinity());
@@ -297,7 +296,7 @@ public:
                 heights.emplace(level, law_.land, known, pull, run_);
             }
             raise_crests(level, pull.floor);
-            relax_terrain(level, law_.land, pull, steps, run_);
+            relax_terrain(level, law_.land, pull, run_);
             change_erodibility_at_crests(level, run_);
             if (params_.heads == Heads::kept && round % 2 == 1 && rounds - round >= to_come_down) {
                 reduce_erodibility(level, law_);
@@ -424,6 +423,7 @@ EquilibriumSolution solved(Channels const& rivers, EquilibriumFields const& fiel
             run.preview(coarse_terrain(level, window, conversion, params, run), false);
         }
         if (region.level > 0 && number == region.level) {
+            accumulate_areas(level, run);
             around = level;
         }
         if (number == 0 && region.level > 0) {

@@ -219,10 +219,7 @@ void settle_terrain(TerrainLevel& level, float step, RiverHeights heights, Run c
             level.z[i] = std::max(level.z[i], above(highest_river(level, i, offsets)));
         }
     });
-    each_upstream(level, run, [&](std::size_t i) {
-        if (!is_land(level.type[i])) {
-            return;
-        }
+    each_upstream(level, CellType::rim_bank, run, [&](std::size_t i) {
         float least = above(level.z[moved(i, offsets[level.direction[i]])]);
         if (is_bank(level.type[i])) {
             least = std::max(least, above(highest_river(level, i, offsets)));

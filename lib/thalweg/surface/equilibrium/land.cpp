@@ -21,16 +21,18 @@ constexpr float by_corner = 1.0F / 6.0F;
 
 /// Inner cells of a row; the pointers are to the first of them.
 struct RowOfLevel {
-    float const* z;
+    std::array<float const*, 3> z; ///< of the row above, this and the row below
     float const* erodibility;
-    float const* cap;
     float const* uplift;
     float const* stiffness; ///< of the pull towards given heights, whose force is part of the uplift
     std::int8_t const* direction;
-    std::int64_t width; ///< of the level
     float side;
     float diagonal;
     float creep_rate;
+
+    float beside(std::int64_t column, std::size_t way) const {
+        return z[static_cast<std::size_t>(1 + d8_steps[way].row)][column + d8_steps[way].col];
+    }
 };
 
 constexpr std::uint8_t all_came = 64; // of cells that have donors: others are 0
@@ -144,9 +146,10 @@ std::int8_t steepest_river(TerrainLevel const& level, std::size_t i, std::array<
 /// mostly stay in the processor's cache.
 /// \param awaited by cell: donors whose water has not arrived
 /// \param leaving receives the cells whose water leaves the band
-OrderPart follow_in_band(TerrainLevel& level, std::int64_t top, std::int64_t bottom, Cells<std::uint8_t>& awaited,
-                         std::vector<std::uint32_t>& leaving) {
+void follow_in_band(TerrainLevel& level, std::int64_t top, std::int64_t bottom, Cells<std::uint8_t>& awaited,
+                    std::vector<std::uint32_t>& leaving) {
     constexpr std::int64_t tile = 64;
+    constexpr std::size_t most = tile * tile; // paths that are followed at a time: each goes on in one cell or none
     std::int64_t const width = level.width;
     auto const first = static_cast<std::size_t>(top * width);
     auto const cells = static_cast<std::size_t>((bottom - top) * width);
@@ -155,56 +158,30 @@ OrderPart follow_in_band(TerrainLevel& level, std::int64_t top, std::int64_t bot
     std::int8_t const* const direction = level.direction.data();
     std::uint8_t* const waits = awaited.data();
     std::uint32_t* const area = level.area.data();
-    std::uint32_t* const order = level.order.data() + first;
-    std::size_t listed = 0;
-    std::size_t followed = 0;
+    std::vector<std::uint32_t> ends(most);
     for (std::int64_t row = top; row < bottom; row += tile) {
         for (std::int64_t left = 0; left < width; left += tile) {
+            std::size_t listed = 0;
             for (std::int64_t r = row; r < std::min(bottom, row + tile); ++r) {
                 std::int64_t const end = r * width + std::min(width, left + tile);
                 for (std::int64_t i = r * width + left; i < end; ++i) {
-                    order[listed] = static_cast<std::uint32_t>(i);
+                    ends[listed % most] = static_cast<std::uint32_t>(i);
                     listed += waits[i] == 0 ? 1U : 0U;
                 }
             }
-            for (; followed < listed; ++followed) {
-                std::uint32_t const i = order[followed];
+            for (std::size_t followed = 0; followed < listed; ++followed) {
+                std::uint32_t const i = ends[followed % most];
                 std::size_t const next = moved(i, offsets[direction[i]]);
                 if (next - first >= cells) {
                     leaving.push_back(i);
                     continue;
                 }
                 area[next] += area[i];
-                order[listed] = static_cast<std::uint32_t>(next);
+                ends[listed % most] = static_cast<std::uint32_t>(next);
                 listed += --waits[next] == all_came ? 1U : 0U;
             }
         }
     }
-    return {first, listed};
-}
-
-/// One band for one worker; a few more than workers otherwise.
-std::int64_t band_count(TerrainLevel const& level, std::int64_t rows, Run const& run) {
-    std::int64_t const workers = run.threads > 0 ? run.threads : std::max(1U, std::thread::hardware_concurrency());
-    return workers == 1 ? 1 : std::clamp<std::int64_t>(level.height / rows, 1, std::int64_t{2} * workers);
-}
-
-struct Creep {
-    float gain;   ///< weighted heights of the neighbours
-    float weight; ///< their weights
-};
-
-Creep creep_at_rim(TerrainLevel const& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
-    Creep creep{0.0F, 0.0F};
-    for (std::size_t k = 0; k < offsets.size(); ++k) {
-        std::size_t const n = moved(i, offsets[k]);
-        if (level.type[n] != CellType::outside) {
-            float const weight = k % 2 == 0 ? by_side : by_corner;
-            creep.gain += weight * level.z[n];
-            creep.weight += weight;
-        }
-    }
-    return creep;
 }
 
 constexpr float tolerance = 1.5F; // relative to the cap
@@ -218,11 +195,17 @@ float greatest_height(TerrainLevel const& level, std::size_t i, std::array<std::
     return most;
 }
 
-float relaxed(Relaxation const& step, float below, float most, float least) {
-    return std::max(std::min(step.rise + step.share * below, below + most), below + least);
+/// One band of rows for one worker; a few more than workers otherwise.
+std::int64_t band_count(TerrainLevel const& level, std::int64_t rows, Run const& run) {
+    std::int64_t const workers = run.threads > 0 ? run.threads : std::max(1U, std::thread::hardware_concurrency());
+    return workers == 1 ? 1 : std::clamp<std::int64_t>(level.height / rows, 1, std::int64_t{2} * workers);
 }
 
-constexpr float settled = -1.0F; // share of a cell whose height is known: its rise
+/// A land cell's height from its receiver's.
+/// \param rise, share the height is rise + share * below, before limits
+float relaxed(float rise, float share, float below, float most, float least) {
+    return std::max(std::min(rise + share * below, below + most), below + least);
+}
 
 constexpr float least_width = 0.5F; // [cells] narrower floors are not resolved
 constexpr float foot_widths = 2.0F; // end of the foot, in half widths of the floor
@@ -275,6 +258,137 @@ std::vector<float> half_widths(TerrainLevel const& level, FloorParams const& par
     }
     return widths;
 }
+
+/// How heights of land follow from those of receivers, from the heights before a sweep.
+class Relaxer {
+public:
+    Relaxer(TerrainLevel& level, LandLaw const& law, Pull const& pull)
+        : level_(level), law_(law), pull_(pull), offsets_(level.offsets()), inner_(level.width - 2),
+          creep_rate_(law.creep / (level.side * level.side)),
+          even_(level.uplift.empty() ? static_cast<std::size_t>(inner_) : 0, 1.0F),
+          free_(pull.stiffness.empty() ? static_cast<std::size_t>(inner_) : 0, 0.0F) {
+        for (std::size_t k = 0; k < length_.size(); ++k) {
+            length_[k] = level.side * step_lengths[k];
+        }
+    }
+
+    /// [finest cells] of the D8 steps.
+    std::array<float, 8> const& length() const { return length_; }
+
+    /// Sets banks; of other land cells z becomes their height above a receiver at 0, and the bits of area become those
+    /// of the float by which it grows with the receiver's height.
+    void prepare(Run const& run) const {
+        constexpr std::int64_t rows = 64;
+        auto const width = static_cast<std::size_t>(level_.width);
+        std::int64_t const blocks = (level_.height - 2 + rows - 1) / rows;
+        Cells<float> edges(2 * static_cast<std::size_t>(blocks) * width); // the rows above and below each block
+        auto const end_of = [&](std::int64_t block) { return std::min(rows * (block + 1), level_.height - 2) + 1; };
+        for (std::int64_t block = 0; block < blocks; ++block) {
+            std::memcpy(&edges[2 * block * level_.width], &level_.z[rows * block * level_.width],
+                        width * sizeof(float));
+            std::memcpy(&edges[(2 * block + 1) * level_.width], &level_.z[end_of(block) * level_.width],
+                        width * sizeof(float));
+        }
+        parallel_ranges(run, blocks, 1, [&](std::int64_t begin, std::int64_t end) {
+            for (std::int64_t block = begin; block < end; ++block) {
+                float const* const around = &edges[2 * block * level_.width];
+                prepare_rows(rows * block + 1, end_of(block), around, around + width);
+            }
+        });
+    }
+
+private:
+    /// \param above, below heights of the rows beside these
+    void prepare_rows(std::int64_t top, std::int64_t bottom, float const* above, float const* below) const {
+        auto const width = static_cast<std::size_t>(level_.width);
+        std::vector<float> upper(above, above + width);
+        std::vector<float> here(width);
+        for (std::int64_t row = top; row < bottom; ++row) {
+            std::memcpy(here.data(), &level_.z[row * level_.width], width * sizeof(float));
+            float const* const lower = row + 1 == bottom ? below : &level_.z[(row + 1) * level_.width];
+            prepare_row(static_cast<std::size_t>(row * level_.width + 1), {&upper[1], &here[1], &lower[1]});
+            std::swap(upper, here);
+        }
+    }
+
+    void prepare_row(std::size_t first, std::array<float const*, 3> const& z) const {
+        auto* const relaxation = widest_lanes() == Lanes::avx2 ? &avx2::relaxation_row : &plain::relaxation_row;
+        auto const count = static_cast<std::size_t>(inner_);
+        std::vector<float> power(count);
+        std::vector<float> share(count);
+        float const cell_area = level_.side * level_.side;
+        for (std::size_t c = 0; c < count; ++c) {
+            power[c] = law_.power(static_cast<float>(level_.area[first + c]) * cell_area);
+        }
+        RowOfLevel const row{z,
+                             &level_.erodibility[first],
+                             level_.uplift.empty() ? even_.data() : &level_.uplift[first],
+                             pull_.stiffness.empty() ? free_.data() : &pull_.stiffness[first],
+                             &level_.direction[first],
+                             level_.side,
+                             level_.side * step_lengths[1],
+                             creep_rate_};
+        float* const rise = &level_.z[first];
+        relaxation(row, power.data(), rise, share.data(), inner_);
+        for (std::size_t c = 0; c < count; ++c) {
+            std::size_t const i = first + c;
+            CellType const type = level_.type[i];
+            if (is_land(type) && type != CellType::land && type != CellType::bank) {
+                relax_at_rim(row, i, c, power[c], share[c]);
+            }
+            if (is_bank(type)) {
+                rise[c] = bank_height(row, i, c, share[c]);
+            } else if (is_land(type)) {
+                level_.area[i] = std::bit_cast<std::uint32_t>(share[c]);
+            } else {
+                rise[c] = z[1][c];
+            }
+        }
+    }
+
+    /// Creep has fewer neighbours at the rim.
+    void relax_at_rim(RowOfLevel const& row, std::size_t i, std::size_t c, float power, float& share) const {
+        float gain = 0.0F;   // weighted heights of the neighbours
+        float weight = 0.0F; // their weights
+        for (std::size_t k = 0; k < offsets_.size(); ++k) {
+            if (level_.type[moved(i, offsets_[k])] != CellType::outside) {
+                float const of = k % 2 == 0 ? by_side : by_corner;
+                gain += of * row.beside(static_cast<std::int64_t>(c), k);
+                weight += of;
+            }
+        }
+        float const cutting = power * level_.erodibility[i] / length_[static_cast<std::size_t>(level_.direction[i])];
+        float const part = 1.0F / (cutting + (creep_rate_ * weight + row.stiffness[c]));
+        level_.z[i] = (row.uplift[c] + creep_rate_ * gain) * part;
+        share = cutting * part;
+    }
+
+    /// The height of a bank, whose receiver is a river cell.
+    float bank_height(RowOfLevel const& row, std::size_t i, std::size_t c, float share) const {
+        auto const way = static_cast<std::size_t>(level_.direction[i]);
+        auto const column = static_cast<std::int64_t>(c);
+        float z = relaxed(level_.z[i], share, row.beside(column, way), level_.cap[i] * length_[way],
+                          level_.least * length_[way]);
+        z = pull_.floor.empty() ? z : std::max(z, pull_.floor[i]);
+        float highest = -std::numeric_limits<float>::infinity();
+        for (std::size_t k = 0; k < offsets_.size(); ++k) {
+            if (level_.type[moved(i, offsets_[k])] == CellType::river) {
+                highest = std::max(highest, row.beside(column, k));
+            }
+        }
+        return std::max(z, highest + level_.least * level_.side);
+    }
+
+    TerrainLevel& level_;
+    LandLaw const& law_;
+    Pull const& pull_;
+    std::array<std::int64_t, 8> offsets_;
+    std::array<float, 8> length_{};
+    std::int64_t inner_; ///< cells of a row inside the frame
+    float creep_rate_;
+    std::vector<float> even_; ///< uplift
+    std::vector<float> free_; ///< stiffness
+};
 
 } // namespace
 
@@ -377,7 +491,6 @@ void accumulate_areas(TerrainLevel& level, Run const& run, std::int64_t rows) {
     auto const offsets = level.offsets();
     auto* const donors = widest_lanes() == Lanes::avx2 ? &avx2::donors_row : &plain::donors_row;
     Cells<std::uint8_t> awaited(level.direction.size(), for_ever);
-    level.order.resize(level.direction.size());
     level.area.resize(level.direction.size());
     std::fill(level.area.begin(), level.area.end(), 1U);
     for (Inflow const& in : level.inflow) {
@@ -388,14 +501,12 @@ void accumulate_areas(TerrainLevel& level, Run const& run, std::int64_t rows) {
     });
     std::int64_t const bands = band_count(level, rows, run);
     std::vector<std::vector<std::uint32_t>> leaving(static_cast<std::size_t>(bands));
-    level.bands.assign(leaving.size(), {});
     parallel_ranges(run, bands, 1, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t band = begin; band < end; ++band) {
-            level.bands[band] = follow_in_band(level, band * level.height / bands, (band + 1) * level.height / bands,
-                                               awaited, leaving[band]);
+            follow_in_band(level, band * level.height / bands, (band + 1) * level.height / bands, awaited,
+                           leaving[band]);
         }
     });
-    level.joining.clear();
     for (std::vector<std::uint32_t> const& cells : leaving) {
         for (std::uint32_t const from : cells) {
             std::uint32_t at = from;
@@ -405,77 +516,24 @@ void accumulate_areas(TerrainLevel& level, Run const& run, std::int64_t rows) {
                 if (--awaited[next] != all_came) {
                     break;
                 }
-                level.joining.push_back(next);
                 at = next;
             }
         }
     }
 }
 
-void relax_terrain(TerrainLevel& level, LandLaw const& law, Pull const& pull, Cells<Relaxation>& steps,
-                   Run const& run) {
-    auto const offsets = level.offsets();
-    auto* const relaxation = widest_lanes() == Lanes::avx2 ? &avx2::relaxation_row : &plain::relaxation_row;
-    float const cell_area = level.side * level.side;
-    float const creep_rate = law.creep / cell_area;
-    std::int64_t const inner = level.width - 2;
-    std::vector<float> const even(level.uplift.empty() ? static_cast<std::size_t>(inner) : 0, 1.0F);
-    std::vector<float> const free(pull.stiffness.empty() ? static_cast<std::size_t>(inner) : 0, 0.0F);
-    std::array<float, 8> length{};
-    for (std::size_t k = 0; k < length.size(); ++k) {
-        length[k] = level.side * step_lengths[k];
-    }
-    steps.resize(level.z.size());
-    each_inner_row(level, run, [&](std::size_t first) {
-        std::vector<float> power(static_cast<std::size_t>(inner));
-        for (std::size_t c = 0; c < power.size(); ++c) {
-            power[c] = law.power(static_cast<float>(level.area[first + c]) * cell_area);
-        }
-        RowOfLevel const row{&level.z[first],
-                             &level.erodibility[first],
-                             &level.cap[first],
-                             level.uplift.empty() ? even.data() : &level.uplift[first],
-                             pull.stiffness.empty() ? free.data() : &pull.stiffness[first],
-                             &level.direction[first],
-                             level.width,
-                             level.side,
-                             level.side * step_lengths[1],
-                             creep_rate};
-        relaxation(row, power.data(), &steps[first], inner);
-        for (std::size_t i = first; i < first + power.size(); ++i) {
-            CellType const type = level.type[i];
-            if (type == CellType::land) {
-                continue;
-            }
-            float z = level.z[i];
-            if (is_land(type)) {
-                auto const way = static_cast<std::size_t>(level.direction[i]);
-                if (type != CellType::bank) {
-                    Creep const creep = creep_at_rim(level, i, offsets);
-                    float const cutting = power[i - first] * level.erodibility[i] / length[way];
-                    float const part = 1.0F / (cutting + (creep_rate * creep.weight + row.stiffness[i - first]));
-                    steps[i].rise = (row.uplift[i - first] + creep_rate * creep.gain) * part;
-                    steps[i].share = cutting * part;
-                }
-                if (!is_bank(type)) {
-                    continue;
-                }
-                float const below = level.z[moved(i, offsets[way])]; // its receiver is a river cell
-                z = relaxed(steps[i], below, level.cap[i] * length[way], level.least * length[way]);
-                z = pull.floor.empty() ? z : std::max(z, pull.floor[i]);
-                z = std::max(z, highest_river(level, i, offsets) + level.least * level.side);
-            }
-            steps[i] = {z, settled};
-        }
-    });
+void relax_terrain(TerrainLevel& level, LandLaw const& law, Pull const& pull, Run const& run) {
+    Relaxer const relaxer(level, law, pull);
+    relaxer.prepare(run);
     auto const sweep = [&](auto floor_of) {
-        each_upstream(level, run,
-                      [&, z = level.z.data(), step = steps.data(), cap = level.cap.data(),
-                       direction = level.direction.data(), least = level.least](std::size_t i) {
+        each_upstream(level, CellType::rim, run,
+                      [&, offsets = level.offsets(), length = relaxer.length(), z = level.z.data(),
+                       share = level.area.data(), cap = level.cap.data(), direction = level.direction.data(),
+                       least = level.least](std::size_t i) {
                           auto const way = static_cast<std::size_t>(direction[i]);
-                          float const free_z =
-                              relaxed(step[i], z[moved(i, offsets[way])], cap[i] * length[way], least * length[way]);
-                          z[i] = step[i].share == settled ? step[i].rise : floor_of(i, free_z);
+                          float const below = z[moved(i, offsets[way])];
+                          z[i] = floor_of(i, relaxed(z[i], std::bit_cast<float>(share[i]), below, cap[i] * length[way],
+                                                     least * length[way]));
                       });
     };
     if (pull.floor.empty()) {
@@ -483,6 +541,30 @@ void relax_terrain(TerrainLevel& level, LandLaw const& law, Pull const& pull, Ce
     } else {
         sweep([&](std::size_t i, float at) { return std::max(at, pull.floor[i]); });
     }
+}
+
+Cells<std::uint8_t> donors_of(TerrainLevel const& level, CellType most, Run const& run) {
+    auto* const donors = widest_lanes() == Lanes::avx2 ? &avx2::donor_bits_row : &plain::donor_bits_row;
+    Cells<std::uint8_t> out(level.direction.size());
+    each_inner_row(level, run, [&](std::size_t first) {
+        donors(&level.direction[first], &level.type[first], most, &out[first], level.width, level.width - 2);
+    });
+    auto const drain = [&, offsets = level.offsets()](std::int64_t row, std::int64_t col) { // maybe to the frame
+        auto const i = static_cast<std::size_t>(row * level.width + col);
+        if (std::int8_t const way = level.direction[i]; level.type[i] <= most && way >= 0) {
+            std::uint8_t& bits = out[moved(i, offsets[static_cast<std::size_t>(way)])];
+            bits = static_cast<std::uint8_t>(bits | 1U << (way + 4) % 8);
+        }
+    };
+    for (std::int64_t col = 1; col + 1 < level.width; ++col) {
+        drain(1, col);
+        drain(level.height - 2, col);
+    }
+    for (std::int64_t row = 1; row + 1 < level.height; ++row) {
+        drain(row, 1);
+        drain(row, level.width - 2);
+    }
+    return out;
 }
 
 double mean_slope_deg(TerrainLevel const& level, Run const& run) {

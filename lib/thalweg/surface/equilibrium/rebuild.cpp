@@ -326,7 +326,6 @@ private:
             Cells<float> boost = first ? Cells<float>(level.z.size(), 0.0F) : boost_from(level, coarser, coarse_boost);
             lift(level, uplift, boost);
             flood_terrain(level);
-            Cells<Relaxation> steps;
             Pull pull;
             if (!level.crests.empty()) {
                 pull.floor = no_floor(level);
@@ -341,7 +340,7 @@ private:
                 accumulate_areas(level, run_);
                 scale_uplift(level, uplift);
                 raise_crests(level, pull.floor);
-                relax_terrain(level, law, pull, steps, run_);
+                relax_terrain(level, law, pull, run_);
                 if (round % 2 == 1) {
                     raise_where_wanted(level, {}, uplift, boost);
                     if (sunken_share(level, valleys) > most_sunken) {
@@ -464,7 +463,6 @@ private:
             };
             Cells<float> const wanted = blurred_heights(like.z);
             float const some = 0.5F * gentleness_;
-            Cells<Relaxation> steps;
             int const rounds = rounds_of(number) + (known.cell.empty() ? 0 : more_for_heights);
             for (int round = 0; round < rounds; ++round) {
                 run_.at(0.5 + share_done(number, round, rounds) * 0.5, "fill");
@@ -481,7 +479,7 @@ private:
                     level.uplift[i] = k * uplift[i] * correction[i] + force;
                 });
                 raise_crests(level, pull.floor);
-                relax_terrain(level, law, pull, steps, run_);
+                relax_terrain(level, law, pull, run_);
                 Cells<float> const has = blurred_heights(level.z);
                 each_cell(level, [&](std::size_t i) {
                     float const step = std::sqrt((wanted[i] + some) / (has[i] + some));

@@ -167,11 +167,8 @@ Cells<std::int32_t> links_of(TerrainLevel const& level, std::vector<std::int32_t
         links[level.rivers.cell[n]] = number < 0 ? -1 : link[number];
     }
     auto const offsets = level.offsets();
-    each_upstream(level, run, [&](std::size_t i) {
-        if (is_land(level.type[i])) {
-            links[i] = links[moved(i, offsets[level.direction[i]])];
-        }
-    });
+    each_upstream(level, CellType::rim_bank, run,
+                  [&](std::size_t i) { links[i] = links[moved(i, offsets[level.direction[i]])]; });
     return links;
 }
 

@@ -22,16 +22,10 @@ void flood_terrain(TerrainLevel& level);
 /// form a cycle.
 void set_steepest_receivers(TerrainLevel& level, Run const& run);
 
-/// Computes the contributing area of every cell, and the order of those that drain to a neighbour: follows water from
-/// each cell without donors as long as all donors have arrived, in bands of rows on all workers, then across them.
+/// Computes the contributing area of every cell: follows water from each cell without donors as long as all donors have
+/// arrived, in bands of rows on all workers, then across them.
 /// \param rows of a band at least
 void accumulate_areas(TerrainLevel& level, Run const& run, std::int64_t rows = 128);
-
-/// How a land cell's height follows from its receiver's: rise + share * z, before limits.
-struct Relaxation {
-    float rise;
-    float share;
-};
 
 /// What else holds land cells, by cell; empty: nothing.
 struct Pull {
@@ -42,8 +36,8 @@ struct Pull {
 /// One sweep over the terrain, receivers first: sets each cell to the height at which uplift balances incision, towards
 /// the receiver's new height, and creep, by the neighbours' heights before the sweep (rivers' as they are). Each cell
 /// ends up at least level.least above its receiver and at most its cap (banks may have to be higher: above every
-/// river cell beside them). steps: memory, kept from round to round.
-void relax_terrain(TerrainLevel& level, LandLaw const& law, Pull const& pull, Cells<Relaxation>& steps, Run const& run);
+/// river cell beside them). Areas of land are lost.
+void relax_terrain(TerrainLevel& level, LandLaw const& law, Pull const& pull, Run const& run);
 
 /// Mean slope of the cells that have four neighbours.
 double mean_slope_deg(TerrainLevel const& level, Run const& run);

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <thalweg/core/cells.hpp>
@@ -175,12 +176,6 @@ struct Inflow {
     std::uint32_t area; ///< [cells of the level] contributing area
 };
 
-/// Part of an order of cells.
-struct OrderPart {
-    std::size_t first = 0;
-    std::size_t count = 0;
-};
-
 /// One level of the grid, in a frame one cell wide, so that every inner cell has eight neighbours. Lengths and heights
 /// are in cells of the finest level.
 struct TerrainLevel {
@@ -193,16 +188,11 @@ struct TerrainLevel {
     Cells<CellType> type;
     Cells<float> z;
     Cells<float> erodibility;
-    Cells<float> cap;             ///< largest tangent towards the receiver
-    Cells<float> uplift;          ///< empty: 1 everywhere
-    Cells<std::int8_t> direction; ///< towards the receiver, as in d8_steps, or no_direction
-    Cells<std::uint8_t> shift;    ///< position of the node in its cell: code of jitter()
-    Cells<std::uint32_t> area;    ///< [cells of this level]
-    /// Cells that drain to a neighbour, donors first: in each band of rows those whose donors are all in it, then
-    /// `joining`, the others.
-    Cells<std::uint32_t> order;
-    std::vector<OrderPart> bands;
-    std::vector<std::uint32_t> joining;
+    Cells<float> cap;                  ///< largest tangent towards the receiver
+    Cells<float> uplift;               ///< empty: 1 everywhere
+    Cells<std::int8_t> direction;      ///< towards the receiver, as in d8_steps, or no_direction
+    Cells<std::uint8_t> shift;         ///< position of the node in its cell: code of jitter()
+    Cells<std::uint32_t> area;         ///< [cells of this level]; after relax_terrain() of river cells alone
     std::vector<Inflow> inflow;        ///< water from beyond the frame
     std::vector<std::uint32_t> crests; ///< land cells that no water crosses where it finds another way, ascending
     Cells<std::uint8_t> is_crest;      ///< by cell; empty: there are none
@@ -297,16 +287,114 @@ inline float highest_river(TerrainLevel const& level, std::size_t i, std::array<
     return highest;
 }
 
-/// Calls visit(cell) for the cells that drain to a neighbour, each after its receiver, on all workers.
-/// \pre accumulate_areas(), and no direction has changed since.
-template <class Visit> void each_upstream(TerrainLevel const& level, Run const& run, Visit visit) {
-    std::for_each(level.joining.rbegin(), level.joining.rend(), visit);
-    auto const bands = static_cast<std::int64_t>(level.bands.size());
-    parallel_ranges(run, bands, 1, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t band = end; band-- > begin;) {
-            auto const first = level.order.data() + level.bands[band].first;
-            for (auto at = first + level.bands[band].count; at != first;) {
-                visit(*--at);
+/// By cell: which of its eight neighbours drain to it, as bits of d8_steps, of cells whose type is at most that.
+Cells<std::uint8_t> donors_of(TerrainLevel const& level, CellType most, Run const& run);
+
+/// Follows land upstream. Paths from different starts never meet, so that they may be followed on different workers.
+template <class Visit> class Climb {
+public:
+    /// \param donors donors_of() that type
+    Climb(TerrainLevel const& level, CellType most, Cells<std::uint8_t> const& donors, Visit const& visit)
+        : level_(level), most_(most), donors_(donors.data()), visit_(visit) {
+        auto const offsets = level.offsets();
+        for (std::size_t bits = 0; bits < ways_.size(); ++bits) {
+            for (std::size_t k = 0; k < offsets.size(); ++k) {
+                if ((bits >> k & 1U) != 0) {
+                    ways_[bits].offset[ways_[bits].count++] = static_cast<std::int32_t>(offsets[k]);
+                }
+            }
+        }
+    }
+
+    /// Visits what drains through cells of a tile that are not visited.
+    void from_tile(std::int64_t top, std::int64_t bottom, std::int64_t left, std::int64_t right) {
+        CellType const* const type = level_.type.data();
+        std::vector<std::uint32_t> starts(static_cast<std::size_t>((bottom - top) * (right - left)));
+        std::size_t count = 0;
+        for (std::int64_t row = top; row < bottom; ++row) {
+            for (std::int64_t i = row * level_.width + left; i < row * level_.width + right; ++i) {
+                starts[count] = static_cast<std::uint32_t>(i);
+                count += type[i] > most_ && donors_[i] != 0 ? 1U : 0U;
+            }
+        }
+        first_ = 0;
+        last_ = 0;
+        reserve(count);
+        for (std::size_t n = 0; n < count; ++n) {
+            list_donors(starts[n]);
+        }
+        while (first_ != last_) {
+            follow(std::min<std::size_t>(last_ - first_, 512));
+        }
+    }
+
+private:
+    struct Ways {
+        std::uint32_t count = 0;
+        std::array<std::int32_t, 8> offset{};
+    };
+
+    void follow(std::size_t count) {
+        reserve(count);
+        for (; count > 0; --count) {
+            std::uint32_t const cell = open_[first_++ & (open_.size() - 1)];
+            visit_(cell);
+            list_donors(cell);
+        }
+    }
+
+    void list_donors(std::uint32_t cell) {
+        Ways const& ways = ways_[donors_[cell]];
+        std::size_t const ring = open_.size() - 1;
+        auto const put = [&](std::size_t n) {
+            open_[(last_ + n) & ring] = static_cast<std::uint32_t>(static_cast<std::int32_t>(cell) + ways.offset[n]);
+        };
+        put(0); // hardly a cell has more than two: no branch that a processor cannot foresee
+        put(1);
+        for (std::size_t n = 2; n < ways.count; ++n) {
+            put(n);
+        }
+        last_ += ways.count;
+    }
+
+    /// Makes room for the donors of some cells.
+    void reserve(std::size_t cells) {
+        std::size_t const count = last_ - first_;
+        std::size_t const needed = count + 8 * cells + 2;
+        if (needed <= open_.size()) {
+            return;
+        }
+        std::vector<std::uint32_t> larger(std::bit_ceil(2 * needed));
+        for (std::size_t n = 0; n < count; ++n) {
+            larger[n] = open_[(first_ + n) & (open_.size() - 1)];
+        }
+        open_ = std::move(larger);
+        first_ = 0;
+        last_ = count;
+    }
+
+    TerrainLevel const& level_;
+    CellType most_;
+    std::uint8_t const* donors_;
+    Visit const& visit_;
+    std::array<Ways, 256> ways_;                                            ///< to donors, by their bits
+    std::vector<std::uint32_t> open_ = std::vector<std::uint32_t>(1 << 14); ///< a ring of cells to visit
+    std::size_t first_ = 0;
+    std::size_t last_ = 0;
+};
+
+/// Calls visit(cell) for land cells, each after its receiver, on all workers.
+/// \param most of the types of land to visit; what drains to others is where to begin
+/// \param tile [cells] sides of the squares with which to begin: small, so that what drains to each mostly stays in the
+/// processor's cache
+template <class Visit>
+void each_upstream(TerrainLevel const& level, CellType most, Run const& run, Visit visit, std::int64_t tile = 64) {
+    Cells<std::uint8_t> const donors = donors_of(level, most, run);
+    parallel_ranges(run, (level.height + tile - 1) / tile, 1, [&](std::int64_t begin, std::int64_t end) {
+        Climb climb(level, most, donors, visit);
+        for (std::int64_t row = begin * tile; row < std::min(level.height, end * tile); row += tile) {
+            for (std::int64_t col = 0; col < level.width; col += tile) {
+                climb.from_tile(row, std::min(level.height, row + tile), col, std::min(level.width, col + tile));
             }
         }
     });
