@@ -234,6 +234,19 @@ void free_finished_memory(TerrainLevel& level) {
     level.area = {};
 }
 
+/// What finer levels need of the region.
+TerrainLevel of_region(TerrainLevel const& level) {
+    TerrainLevel around;
+    around.width = level.width;
+    around.height = level.height;
+    around.side = level.side;
+    around.corner = level.corner;
+    around.z = level.z;
+    around.direction = level.direction;
+    around.area = level.area;
+    return around;
+}
+
 /// Computes the heights of a level from those of the coarser one.
 class Solver {
 public:
@@ -277,7 +290,7 @@ public:
                 set_steepest_receivers(level, run_);
             }
             if (number == 0 && round == floors_after && params_.floor_width_km > 0.0) {
-                valley_floors(level, {params_.floor_width_km, window_.grid.cell_m, params_.seed});
+                valley_floors(level, {params_.floor_width_km, window_.grid.cell_m, params_.seed}, run_);
             }
             run_.check();
             accumulate_areas(level, run_);
@@ -424,7 +437,7 @@ EquilibriumSolution solved(Channels const& rivers, EquilibriumFields const& fiel
         }
         if (region.level > 0 && number == region.level) {
             accumulate_areas(level, run);
-            around = level;
+            around = of_region(level);
         }
         if (number == 0 && region.level > 0) {
             inflows = inflows_of(level, window.grid, window.margin);

@@ -622,23 +622,41 @@ void slide_terrain(TerrainLevel& level, Run const& run) {
     }
 }
 
-void valley_floors(TerrainLevel& level, FloorParams const& params) {
+void valley_floors(TerrainLevel& level, FloorParams const& params, Run const& run) {
     std::vector<float> const widths = half_widths(level, params);
-    std::vector<float> reach(widths.size());
-    std::transform(widths.begin(), widths.end(), reach.begin(),
-                   [](float width) { return most_widening * foot_widths * width; });
-    NearestRiver const near = nearest_river(level, reach);
-    each_inner(level, [&](std::size_t i) {
-        if (near.distance[i] >= 0.0F || !is_land(level.type[i])) {
-            return;
-        }
-        float const width = widths[near.number[i]];
+    std::vector<HeadStart> starts(widths.size());
+    float longest = 0.0F;
+    for (std::size_t n = 0; n < starts.size(); ++n) {
+        float const reach = most_widening * foot_widths * widths[n];
+        starts[n] = {level.rivers.cell[n], static_cast<std::uint32_t>(n), reach};
+        longest = std::max(longest, reach);
+    }
+    std::sort(starts.begin(), starts.end(), [](HeadStart const& a, HeadStart const& b) { return a.cell < b.cell; });
+    std::int64_t const beyond = static_cast<std::int64_t>(longest) + 2; // rows that a river reaches at most
+    std::int64_t const rows = std::max<std::int64_t>(64, 2 * beyond);
+    auto const lower = [&](std::size_t i, float distance, std::uint32_t number) {
+        float const width = widths[number];
         if (width < least_width) {
             return;
         }
-        float const far = (near.distance[i] / width + most_widening * foot_widths) / widening(level, i, params);
+        float const far = (distance / width + most_widening * foot_widths) / widening(level, i, params);
         float const up = std::clamp((far - 1.0F) / (foot_widths - 1.0F), 0.0F, 1.0F);
         level.cap[i] *= floor_share + (1.0F - floor_share) * up * up;
+    };
+    parallel_ranges(run, (level.height - 2 + rows - 1) / rows, 1, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t strip = begin; strip < end; ++strip) {
+            std::int64_t const top = 1 + strip * rows;
+            std::int64_t const bottom = std::min(level.height - 1, top + rows);
+            std::int64_t const first = std::max<std::int64_t>(1, top - beyond);
+            NearestRiver const near =
+                nearest_in_rows(level, starts, first, std::min(level.height - 1, bottom + beyond));
+            for (std::int64_t i = top * level.width; i < bottom * level.width; ++i) {
+                auto const at = static_cast<std::size_t>(i - (first - 1) * level.width);
+                if (near.distance[at] < 0.0F && is_land(level.type[i])) {
+                    lower(static_cast<std::size_t>(i), near.distance[at], near.number[at]);
+                }
+            }
+        }
     });
 }
 

@@ -175,6 +175,28 @@ void take_nearer(NearestRiver& near, std::size_t i, std::size_t from, float leng
     }
 }
 
+/// Gives each cell of some rows the nearest of those that have one, in two passes; the first and last of them have
+/// none.
+void spread_out(NearestRiver& near, TerrainLevel const& level) {
+    auto const offsets = level.offsets();
+    auto const width = static_cast<std::size_t>(level.width);
+    std::size_t const height = near.distance.size() / width;
+    for (std::size_t row = 1; row + 1 < height; ++row) {
+        for (std::size_t i = row * width + 1; i + 1 < (row + 1) * width; ++i) {
+            for (std::size_t const k : before) {
+                take_nearer(near, i, moved(i, offsets[k]), step_lengths[k]);
+            }
+        }
+    }
+    for (std::size_t row = height - 2; row > 0; --row) {
+        for (std::size_t i = (row + 1) * width - 2; i > row * width; --i) {
+            for (std::size_t const k : before) {
+                take_nearer(near, i, moved(i, -offsets[k]), step_lengths[k]);
+            }
+        }
+    }
+}
+
 LevelInput coarser(LevelInput const& fine) {
     LevelExtent const extent{(fine.extent.width + 1) / 2, (fine.extent.height + 1) / 2, fine.extent.corner};
     return {extent, coarsened(fine.rivers, fine.extent.width + 2, extent.width + 2, extent.height + 2),
@@ -444,23 +466,24 @@ NearestRiver nearest_of(TerrainLevel const& level, std::vector<std::uint32_t> co
         near.distance[from[n]] = head_start.empty() ? 0.0F : -head_start[n];
         near.number[from[n]] = static_cast<std::uint32_t>(n);
     }
-    auto const offsets = level.offsets();
-    auto const width = static_cast<std::size_t>(level.width);
-    auto const height = static_cast<std::size_t>(level.height);
-    for (std::size_t row = 1; row + 1 < height; ++row) {
-        for (std::size_t i = row * width + 1; i + 1 < (row + 1) * width; ++i) {
-            for (std::size_t const k : before) {
-                take_nearer(near, i, moved(i, offsets[k]), step_lengths[k]);
-            }
-        }
-    }
-    for (std::size_t row = height - 2; row > 0; --row) {
-        for (std::size_t i = (row + 1) * width - 2; i > row * width; --i) {
-            for (std::size_t const k : before) {
-                take_nearer(near, i, moved(i, -offsets[k]), step_lengths[k]);
-            }
-        }
-    }
+    spread_out(near, level);
+    return near;
+}
+
+NearestRiver nearest_in_rows(TerrainLevel const& level, std::vector<HeadStart> const& starts, std::int64_t first_row,
+                             std::int64_t end_row) {
+    auto const corner = static_cast<std::uint32_t>((first_row - 1) * level.width);
+    auto const cells = static_cast<std::size_t>((end_row - first_row + 2) * level.width);
+    NearestRiver near{Cells<float>(cells, std::numeric_limits<float>::infinity()),
+                      Cells<std::uint32_t>(cells, NearestRiver::none)};
+    auto const before = [](HeadStart const& start, std::int64_t cell) { return start.cell < cell; };
+    auto const first = std::lower_bound(starts.begin(), starts.end(), first_row * level.width, before);
+    auto const end = std::lower_bound(first, starts.end(), end_row * level.width, before);
+    std::for_each(first, end, [&](HeadStart const& start) {
+        near.distance[start.cell - corner] = -start.distance;
+        near.number[start.cell - corner] = start.number;
+    });
+    spread_out(near, level);
     return near;
 }
 

@@ -471,7 +471,7 @@ private:
                 }
                 accumulate_areas(level, run_);
                 if (number == 0 && round == floors_after && params_.floor_width_km > 0.0) {
-                    valley_floors(level, {params_.floor_width_km, grid_.cell_m, params_.seed});
+                    valley_floors(level, {params_.floor_width_km, grid_.cell_m, params_.seed}, run_);
                 }
                 auto const k = static_cast<float>(factor_);
                 each_cell(level, [&, z = like.z.data()](std::size_t i) {

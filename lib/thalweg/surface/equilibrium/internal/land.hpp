@@ -55,6 +55,6 @@ struct FloorParams {
 
 /// Lowers the cap on slopes beside rivers to form valley floors that widen downstream: flat, with a concave foot as
 /// wide again.
-void valley_floors(TerrainLevel& level, FloorParams const& params);
+void valley_floors(TerrainLevel& level, FloorParams const& params, Run const& run);
 
 } // namespace thalweg::surface

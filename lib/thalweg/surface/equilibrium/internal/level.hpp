@@ -413,4 +413,16 @@ NearestRiver nearest_river(TerrainLevel const& level, std::vector<float> const& 
 NearestRiver nearest_of(TerrainLevel const& level, std::vector<std::uint32_t> const& cells,
                         std::vector<float> const& head_start = {});
 
+/// A river cell's head start.
+struct HeadStart {
+    std::uint32_t cell = 0;
+    std::uint32_t number = 0; ///< in the level's rivers
+    float distance = 0.0F;    ///< [cells of the level]
+};
+/// nearest_river() of a row and those that follow it, from the row above them to the one below: right where distances
+/// are below 0.
+/// \param starts by cell
+NearestRiver nearest_in_rows(TerrainLevel const& level, std::vector<HeadStart> const& starts, std::int64_t first_row,
+                             std::int64_t end_row);
+
 } // namespace thalweg::surface
