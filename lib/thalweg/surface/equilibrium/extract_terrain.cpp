@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <functional>
 #include <mutex>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -90,25 +91,67 @@ private:
     std::vector<Tangents::Bin> bins_;
 };
 
+/// Rows of heights on a grid; NaN: none.
+class HeightRows {
+public:
+    explicit HeightRows(Raster<float> const& dem)
+        : grid_(dem.grid()), first_(dem.cells() > 0 ? &dem[0] : nullptr), stride_(dem.width()) {}
+    HeightRows(TerrainLevel const& level, Window const& window)
+        : grid_(window.grid), first_(&level.z[(window.margin + 1) * (level.width + 1)]), stride_(level.width),
+          land_(window.land.cells() > 0 ? &window.land : nullptr) {}
+
+    Grid const& grid() const { return grid_; }
+
+    void read(std::int64_t row, std::span<float> out) const {
+        std::copy_n(first_ + row * stride_, out.size(), out.begin());
+        for (std::size_t col = 0; land_ != nullptr && col < out.size(); ++col) {
+            out[col] = land_->row(row)[col] != 0 ? out[col] : std::numeric_limits<float>::quiet_NaN();
+        }
+    }
+
+private:
+    Grid const& grid_;
+    float const* first_;
+    std::int64_t stride_;
+    Mask const* land_ = nullptr;
+};
+
+Raster<float> raster_of(HeightRows const& land, Run const& run) {
+    Raster<float> dem(land.grid());
+    parallel_ranges(run, dem.height(), least_rows(dem.width()), [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t row = begin; row < end; ++row) {
+            land.read(row, dem.row(row));
+        }
+    });
+    return dem;
+}
+
 /// Horn's slopes of the cells that have all their neighbours.
-Tangents horn_tangents(Raster<float> const& land, Run const& run) {
+Tangents horn_tangents(HeightRows const& land, Run const& run) {
     Tangents tangents;
     std::mutex adding;
-    parallel_ranges(run, land.height() - 2, 256, [&](std::int64_t begin, std::int64_t end) {
+    std::int64_t const width = land.grid().width;
+    parallel_ranges(run, land.grid().height - 2, 256, [&](std::int64_t begin, std::int64_t end) {
         Tangents some;
-        std::vector<float> row_tangents(static_cast<std::size_t>(land.width()));
+        std::vector<float> row_tangents(static_cast<std::size_t>(width));
+        std::array<std::vector<float>, 3> rows;
+        rows.fill(row_tangents);
+        land.read(begin, rows[1]);
+        land.read(begin + 1, rows[2]);
         for (std::int64_t row = begin + 1; row < end + 1; ++row) {
-            float const* const n = land.row(row - 1).data();
-            float const* const z = land.row(row).data();
-            float const* const s = land.row(row + 1).data();
+            std::rotate(rows.begin(), rows.begin() + 1, rows.end());
+            land.read(row + 1, rows[2]);
+            float const* const n = rows[0].data();
+            float const* const z = rows[1].data();
+            float const* const s = rows[2].data();
             float* const out = row_tangents.data();
-            for (std::int64_t c = 1; c + 1 < land.width(); ++c) {
+            for (std::int64_t c = 1; c + 1 < width; ++c) {
                 float const east = (n[c + 1] - n[c - 1]) + 2.0F * (z[c + 1] - z[c - 1]) + (s[c + 1] - s[c - 1]);
                 float const south = (s[c - 1] - n[c - 1]) + 2.0F * (s[c] - n[c]) + (s[c + 1] - n[c + 1]);
                 // the cell itself has no part in it, but may have no data
                 out[c] = std::sqrt(east * east + south * south) * 0.125F + 0.0F * z[c];
             }
-            for (std::int64_t c = 1; c + 1 < land.width(); ++c) {
+            for (std::int64_t c = 1; c + 1 < width; ++c) {
                 if (!std::isnan(out[c])) {
                     some.add(out[c]);
                 }
@@ -156,30 +199,34 @@ double rise_for_slope(Slopes const& slopes, double mean_slope_deg) {
 }
 
 /// [m] difference between the highest and the lowest cell, for heights in cells.
-double range_of(Raster<float> const& land) {
+double range_of(HeightRows const& land) {
     float low = std::numeric_limits<float>::infinity();
     float high = -low;
-    for (float const z : land.values()) {
-        low = z < low ? z : low;
-        high = z > high ? z : high;
+    std::vector<float> heights(static_cast<std::size_t>(land.grid().width));
+    for (std::int64_t row = 0; row < land.grid().height; ++row) {
+        land.read(row, heights);
+        for (float const z : heights) {
+            low = z < low ? z : low;
+            high = z > high ? z : high;
+        }
     }
     return (static_cast<double>(high) - static_cast<double>(low)) * land.grid().cell_m;
 }
 
-double rise_for_relief(Raster<float> const& land, double relief_m) {
+double rise_for_relief(HeightRows const& land, double relief_m) {
     double const range = range_of(land);
     return range > 0.0 ? relief_m / range : 1.0;
 }
 
-Slopes slopes_of(Raster<float> const& land, Run const& run) {
+Slopes slopes_of(HeightRows const& land, Run const& run) {
     Slopes const slopes(horn_tangents(land, run));
-    return slopes.empty() ? Slopes(descents(land)) : slopes;
+    return slopes.empty() ? Slopes(descents(raster_of(land, run))) : slopes;
 }
 
 // Computes the factor that scales heights to the target relief or mean slope. land: heights in cells; NaN: none.
 // Returns 1 for level terrain. Throws BadParameter naming the steepest mean slope that can be reached when too much of
 // the terrain is level.
-Rise height_scale_of(Raster<float> const& land, EquilibriumParams const& params, Run const& run) {
+Rise height_scale_of(HeightRows const& land, EquilibriumParams const& params, Run const& run) {
     Slopes const slopes = slopes_of(land, run);
     double const factor =
         params.relief_m ? rise_for_relief(land, *params.relief_m) : rise_for_slope(slopes, params.mean_slope_deg);
@@ -228,30 +275,13 @@ void settle_terrain(TerrainLevel& level, float step, RiverHeights heights, Run c
     });
 }
 
-/// Copies the caller's grid out of the level; NaN at sea.
-Raster<float> cropped(TerrainLevel const& level, Window const& window, Run const& run) {
-    Raster<float> dem(window.grid);
-    Mask const& land = window.land;
-    std::int64_t const margin = window.margin;
-    parallel_ranges(run, dem.height(), least_rows(dem.width()), [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t row = begin; row < end; ++row) {
-            float const* const z = &level.z[(row + margin + 1) * level.width + margin + 1];
-            auto const out = dem.row(row);
-            std::copy(z, z + out.size(), out.begin());
-            for (std::size_t col = 0; land.cells() != 0 && col < out.size(); ++col) {
-                out[col] = land.row(row)[col] != 0 ? out[col] : std::numeric_limits<float>::quiet_NaN();
-            }
-        }
-    });
-    return dem;
-}
-
 /// The lowest height at which a river ends on the caller's grid.
-float lowest_end(Raster<float> const& dem, Channels const& rivers) {
+float lowest_end(TerrainLevel const& level, Window const& window, Channels const& rivers) {
     float low = std::numeric_limits<float>::infinity();
     for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
         if (rivers.receiver[n] < 0) {
-            low = std::min(low, dem[rivers.cell[n]]);
+            Cell const c = window.grid.at(rivers.cell[n]);
+            low = std::min(low, level.z[(c.row + window.margin + 1) * level.width + c.col + window.margin + 1]);
         }
     }
     return low;
@@ -379,9 +409,7 @@ void set_asked(TerrainLevel& level, Channels const& rivers, bool at_most) {
     }
 }
 
-} // namespace
-
-double share_of_target(Raster<float> const& land, double factor, EquilibriumParams const& params, Run const& run) {
+double part_of_target(HeightRows const& land, double factor, EquilibriumParams const& params, Run const& run) {
     if (params.relief_m) {
         return range_of(land) * factor / *params.relief_m;
     }
@@ -389,17 +417,22 @@ double share_of_target(Raster<float> const& land, double factor, EquilibriumPara
     return slopes.empty() ? 0.0 : slopes.mean(factor) / params.mean_slope_deg;
 }
 
+} // namespace
+
+double share_of_target(Raster<float> const& land, double factor, EquilibriumParams const& params, Run const& run) {
+    return part_of_target(HeightRows(land), factor, params, run);
+}
+
 HeightConversion height_conversion_for(TerrainLevel const& level, Channels const& rivers, Window const& window,
                                        EquilibriumParams const& params, Run const& run) {
-    Raster<float> const dem = cropped(level, window, run);
-    Rise const rise = height_scale_of(dem, params, run);
+    Rise const rise = height_scale_of(HeightRows(level, window), params, run);
     double const metres = rise.factor * window.grid.cell_m;
-    return {metres, -static_cast<double>(lowest_end(dem, rivers)) * metres, rise.mean_tangent};
+    return {metres, -static_cast<double>(lowest_end(level, window, rivers)) * metres, rise.mean_tangent};
 }
 
 double share_of_target(TerrainLevel const& level, Window const& window, double metres, EquilibriumParams const& params,
                        Run const& run) {
-    return share_of_target(cropped(level, window, run), metres / window.grid.cell_m, params, run);
+    return part_of_target(HeightRows(level, window), metres / window.grid.cell_m, params, run);
 }
 
 Raster<float> coarse_terrain(TerrainLevel const& level, Window const& window, HeightConversion const* conversion,
@@ -439,7 +472,7 @@ Raster<float> coarse_terrain(TerrainLevel const& level, Window const& window, He
         for (float& z : in_cells.values()) {
             z /= level.side;
         }
-        double const metres = height_scale_of(in_cells, target, run).factor * window.grid.cell_m;
+        double const metres = height_scale_of(HeightRows(in_cells), target, run).factor * window.grid.cell_m;
         raise = {metres, -static_cast<double>(low) * metres, 0.0};
     }
     for (float& z : dem.values()) {
@@ -468,7 +501,7 @@ EquilibriumTerrain extract_terrain(TerrainLevel level, Channels const& rivers, W
     run.check();
     settle_terrain(level, settled_step(raise), RiverHeights::graded, run);
     run.check();
-    out.dem = cropped(level, window, run);
+    out.dem = raster_of(HeightRows(level, window), run);
     float const perched_m = perched_height(raise, window.grid);
     if (heads == Heads::kept) {
         out.walled = walled_cells(level, perched_m);
@@ -502,7 +535,7 @@ EquilibriumTerrain extract_terrain_with_heights(TerrainLevel level, Channels con
     run.check();
     settle_terrain(level, settled_step(raise), heights, run);
     run.check();
-    out.dem = cropped(level, window, run);
+    out.dem = raster_of(HeightRows(level, window), run);
     out.walled = walled_cells(level, perched_height(raise, window.grid));
     level = {};
     out.direction = directions(out.dem, rivers, {}, run);
@@ -521,7 +554,7 @@ EquilibriumTerrain extract_rebuilt(TerrainLevel level, Channels const& rivers, W
     run.check();
     settle_terrain(level, settled_step(raise), RiverHeights::fixed, run);
     run.check();
-    out.dem = cropped(level, window, run);
+    out.dem = raster_of(HeightRows(level, window), run);
     out.walled = walled_cells(level, perched_height(raise, window.grid), Walls::land);
     level = {};
     out.direction = directions(out.dem, rivers, {}, run);
