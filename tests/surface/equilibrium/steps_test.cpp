@@ -53,11 +53,11 @@ TerrainLevel any_land() {
     auto const cells = static_cast<std::size_t>(level.cells());
     level.type.assign(cells, CellType::outside);
     level.z.assign(cells, std::numeric_limits<float>::infinity());
-    level.cap.assign(cells, 0.0F);
+    level.rock = Rock(Cells<float>(cells, 1.0F));
     each_inner(level, [&](std::size_t i) {
         level.type[i] = random_word(seed, 1, i) % 10 == 0 ? CellType::bank : CellType::land;
         level.z[i] = static_cast<float>(random_word(seed, 2, i) % 1000) * 0.01F;
-        level.cap[i] = 0.1F + static_cast<float>(random_word(seed, 3, i) % 10) * 0.05F;
+        level.rock.set_cap(i, 0.1F + static_cast<float>(random_word(seed, 3, i) % 10) * 0.05F);
     });
     for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
         level.type[level.rivers.cell[n]] = CellType::river;
@@ -230,6 +230,71 @@ TEST(NearestRiver, IsTheNearestOfAll) {
     }));
 }
 
+// As nearest_river() where a river's head start is not used up, for any rows.
+TEST(NearestRiver, IsTheSameRowsAtATime) {
+    EXPECT_TRUE(rc::check("the same rows at a time", [] {
+        TerrainLevel const level = any_level();
+        std::vector<float> reach;
+        std::vector<HeadStart> starts;
+        float longest = 0.0F;
+        for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
+            reach.push_back(static_cast<float>(random_word(5, n) % 100) * 0.05F);
+            starts.push_back({level.rivers.cell[n], static_cast<std::uint32_t>(n), reach.back()});
+            longest = std::max(longest, reach.back());
+        }
+        std::sort(starts.begin(), starts.end(), [](HeadStart a, HeadStart b) { return a.cell < b.cell; });
+        NearestRiver const all = nearest_river(level, reach);
+        auto const beyond = static_cast<std::int64_t>(longest) + 2;
+        for (std::int64_t row = 1; row + 1 < level.height; ++row) {
+            std::int64_t const first = std::max<std::int64_t>(1, row - beyond);
+            NearestRiver const some =
+                nearest_in_rows(level, starts, first, std::min(level.height - 1, row + 1 + beyond));
+            for (std::int64_t i = row * level.width; i < (row + 1) * level.width; ++i) {
+                auto const at = static_cast<std::size_t>(i - (first - 1) * level.width);
+                RC_ASSERT((some.distance[at] < 0.0F) == (all.distance[i] < 0.0F));
+                if (all.distance[i] < 0.0F) {
+                    RC_ASSERT(some.distance[at] == all.distance[i]);
+                    RC_ASSERT(some.number[at] == all.number[i]);
+                }
+            }
+        }
+    }));
+}
+
+// Numbers that are set stand before those that follow from the fifth root.
+TEST(Rock, HoldsWhatWasSet) {
+    EXPECT_TRUE(rc::check("holds what was set", [] {
+        auto const cells = *rc::gen::inRange<std::size_t>(1, 100).as("cells");
+        auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1U << 30).as("seed");
+        Cells<float> root(cells);
+        std::vector<float> erodibility(cells);
+        std::vector<float> cap(cells);
+        for (std::size_t i = 0; i < cells; ++i) {
+            root[i] = 0.5F + static_cast<float>(random_word(seed, 1, i) % 100) * 0.01F;
+            float const fourth = (root[i] * root[i]) * (root[i] * root[i]);
+            erodibility[i] = fourth * root[i];
+            cap[i] = steepest_tangent / fourth;
+        }
+        Rock rock(root);
+        for (std::uint64_t k = 0; k < cells / 4; ++k) {
+            std::size_t const i = random_word(seed, 2, k) % cells;
+            auto const value = static_cast<float>(k + 1);
+            k % 2 == 0 ? rock.set_cap(i, value) : rock.set_erodibility(i, value);
+            (k % 2 == 0 ? cap : erodibility)[i] = value;
+        }
+        std::size_t const first = random_word(seed, 3) % cells;
+        std::vector<float> row(cells - first);
+        rock.caps(first, row);
+        RC_ASSERT(std::equal(row.begin(), row.end(), cap.begin() + static_cast<std::ptrdiff_t>(first)));
+        rock.erodibilities(first, row);
+        RC_ASSERT(std::equal(row.begin(), row.end(), erodibility.begin() + static_cast<std::ptrdiff_t>(first)));
+        for (std::size_t i = 0; i < cells; ++i) {
+            RC_ASSERT(rock.cap(i) == cap[i]);
+            RC_ASSERT(rock.erodibility(i) == erodibility[i]);
+        }
+    }));
+}
+
 // Areas are what is counted when each cell's water is followed to its end; no cell stands behind its receiver.
 TEST(OrderCells, CountsWhatDrainsThrough) {
     EXPECT_TRUE(rc::check("counts what drains through", [] {
@@ -311,7 +376,7 @@ TEST(SlideLand, IsTheGreatestThatMayStand) {
             each_inner(plain, [&](std::size_t i) {
                 for (std::size_t k = 0; k < 8 && plain.type[i] == CellType::land; ++k) {
                     float const most =
-                        plain.z[moved(i, offsets[k])] + 1.5F * plain.cap[i] * plain.side * step_lengths[k];
+                        plain.z[moved(i, offsets[k])] + 1.5F * plain.rock.cap(i) * plain.side * step_lengths[k];
                     more = more || plain.z[i] > most;
                     plain.z[i] = std::min(plain.z[i], most);
                 }

@@ -227,8 +227,7 @@ void check_drained(TerrainLevel const& level, Mask const& land, std::int64_t mar
 
 /// Frees everything that the next level and the output do not need.
 void free_finished_memory(TerrainLevel& level) {
-    level.erodibility = {};
-    level.cap = {};
+    level.rock = {};
     level.uplift = {};
     level.shift = {};
     level.area = {};

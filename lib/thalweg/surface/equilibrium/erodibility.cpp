@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <utility>
+
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/lanes.hpp>
 #include <thalweg/surface/equilibrium/internal/erodibility.hpp>
@@ -261,18 +263,18 @@ void add_firmness(TerrainLevel& level, std::size_t i, float more) {
         return;
     }
     level.firmness[i] += more;
-    level.erodibility[i] *= static_cast<float>(portable::exp(static_cast<double>(-more)));
-    level.cap[i] *= static_cast<float>(portable::exp(static_cast<double>(of_cap * more)));
+    level.rock.set_erodibility(i, level.rock.erodibility(i) *
+                                      static_cast<float>(portable::exp(static_cast<double>(-more))));
+    level.rock.set_cap(i, level.rock.cap(i) * static_cast<float>(portable::exp(static_cast<double>(of_cap * more))));
 }
 
 } // namespace
 
 void set_erodibility(TerrainLevel& level, ErodibilityFields const& fields, ErodibilityParams const& params,
                      Run const& run) {
-    level.erodibility = erodibility_noise(level, params.noise, run);
-    level.cap.resize(level.erodibility.size());
+    Cells<float> values = erodibility_noise(level, params.noise, run);
     for (std::uint32_t const river : level.rivers.cell) {
-        level.erodibility[river] = 0.0F;
+        values[river] = 0.0F;
     }
     Cells<float> rock;
     if (fields.erodibility.cells() > 0) {
@@ -283,16 +285,16 @@ void set_erodibility(TerrainLevel& level, ErodibilityFields const& fields, Erodi
     if (fields.uplift.cells() > 0) {
         level.uplift = level_of(fields.uplift, level);
     }
-    auto* const turn = widest_lanes() == Lanes::avx2 ? &avx2::erodibility_row : &plain::erodibility_row;
+    auto* const turn = widest_lanes() == Lanes::avx2 ? &avx2::fifth_root_row : &plain::fifth_root_row;
     std::vector<float> const even(rock.empty() ? static_cast<std::size_t>(level.width) : 0, 1.0F);
     auto const roughness = static_cast<float>(params.roughness);
     parallel_ranges(run, level.height, least_rows(level.width), [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin; row < end; ++row) {
             auto const first = static_cast<std::size_t>(row * level.width);
-            turn(&level.erodibility[first], &level.cap[first], rock.empty() ? even.data() : &rock[first], roughness,
-                 level.width);
+            turn(&values[first], rock.empty() ? even.data() : &rock[first], roughness, level.width);
         }
     });
+    level.rock = Rock(std::move(values));
 }
 
 void reduce_erodibility(TerrainLevel& level, EquilibriumLaw const& law) {

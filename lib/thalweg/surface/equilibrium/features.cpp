@@ -257,7 +257,7 @@ void raise_crests(TerrainLevel const& level, Cells<float>& floor) {
     for (std::uint32_t const i : level.crests) {
         auto const way = static_cast<std::size_t>(level.direction[i]);
         float const length = level.side * step_lengths[way];
-        float const most = level.z[moved(i, offsets[way])] + level.cap[i] * length;
+        float const most = level.z[moved(i, offsets[way])] + level.rock.cap(i) * length;
         auto const beside = highest_beside(level, i, offsets);
         floor[i] = beside ? std::min(most, level.z[*beside] + level.least * level.side)
                           : -std::numeric_limits<float>::infinity();
@@ -273,7 +273,7 @@ Cells<float> land_off_crests(TerrainLevel const& level, WallParams const& params
         std::size_t const below = moved(crest, offsets[level.direction[crest]]);
         auto const beside = highest_beside(level, crest, offsets);
         if (beside && is_land(level.type[below]) &&
-            level.z[below] + even * level.cap[crest] * level.side < level.z[*beside]) {
+            level.z[below] + even * level.rock.cap(crest) * level.side < level.z[*beside]) {
             float const middle = 0.5F * (level.z[below] + level.z[*beside]);
             mark_to_move(level, below, middle, params, rises);
             mark_to_move(level, *beside, middle, params, sinks);

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstring>
+#include <mutex>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/lanes.hpp>
@@ -187,7 +189,7 @@ void follow_in_band(TerrainLevel& level, std::int64_t top, std::int64_t bottom, 
 constexpr float tolerance = 1.5F; // relative to the cap
 
 float greatest_height(TerrainLevel const& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
-    float const steepest = tolerance * level.side * level.cap[i];
+    float const steepest = tolerance * level.side * level.rock.cap(i);
     float most = level.z[i];
     for (std::size_t k = 0; k < offsets.size(); ++k) {
         most = std::min(most, level.z[moved(i, offsets[k])] + steepest * step_lengths[k]);
@@ -316,12 +318,14 @@ private:
         auto const count = static_cast<std::size_t>(inner_);
         std::vector<float> power(count);
         std::vector<float> share(count);
+        std::vector<float> erodibility(count);
+        level_.rock.erodibilities(first, erodibility);
         float const cell_area = level_.side * level_.side;
         for (std::size_t c = 0; c < count; ++c) {
             power[c] = law_.power(static_cast<float>(level_.area[first + c]) * cell_area);
         }
         RowOfLevel const row{z,
-                             &level_.erodibility[first],
+                             erodibility.data(),
                              level_.uplift.empty() ? even_.data() : &level_.uplift[first],
                              pull_.stiffness.empty() ? free_.data() : &pull_.stiffness[first],
                              &level_.direction[first],
@@ -357,7 +361,7 @@ private:
                 weight += of;
             }
         }
-        float const cutting = power * level_.erodibility[i] / length_[static_cast<std::size_t>(level_.direction[i])];
+        float const cutting = power * row.erodibility[c] / length_[static_cast<std::size_t>(level_.direction[i])];
         float const part = 1.0F / (cutting + (creep_rate_ * weight + row.stiffness[c]));
         level_.z[i] = (row.uplift[c] + creep_rate_ * gain) * part;
         share = cutting * part;
@@ -367,7 +371,7 @@ private:
     float bank_height(RowOfLevel const& row, std::size_t i, std::size_t c, float share) const {
         auto const way = static_cast<std::size_t>(level_.direction[i]);
         auto const column = static_cast<std::int64_t>(c);
-        float z = relaxed(level_.z[i], share, row.beside(column, way), level_.cap[i] * length_[way],
+        float z = relaxed(level_.z[i], share, row.beside(column, way), level_.rock.cap(i) * length_[way],
                           level_.least * length_[way]);
         z = pull_.floor.empty() ? z : std::max(z, pull_.floor[i]);
         float highest = -std::numeric_limits<float>::infinity();
@@ -528,12 +532,12 @@ void relax_terrain(TerrainLevel& level, LandLaw const& law, Pull const& pull, Ru
     auto const sweep = [&](auto floor_of) {
         each_upstream(level, CellType::rim, run,
                       [&, offsets = level.offsets(), length = relaxer.length(), z = level.z.data(),
-                       share = level.area.data(), cap = level.cap.data(), direction = level.direction.data(),
+                       share = level.area.data(), &rock = level.rock, direction = level.direction.data(),
                        least = level.least](std::size_t i) {
                           auto const way = static_cast<std::size_t>(direction[i]);
                           float const below = z[moved(i, offsets[way])];
-                          z[i] = floor_of(i, relaxed(z[i], std::bit_cast<float>(share[i]), below, cap[i] * length[way],
-                                                     least * length[way]));
+                          z[i] = floor_of(i, relaxed(z[i], std::bit_cast<float>(share[i]), below,
+                                                     rock.cap(i) * length[way], least * length[way]));
                       });
     };
     if (pull.floor.empty()) {
@@ -599,7 +603,9 @@ void slide_terrain(TerrainLevel& level, Run const& run) {
     auto* const slides = widest_lanes() == Lanes::avx2 ? &avx2::slides_row : &plain::slides_row;
     Cells<std::uint8_t> steep(level.z.size());
     each_inner_row(level, run, [&](std::size_t first) {
-        slides(&level.z[first], &level.cap[first], tolerance * level.side, &steep[first], level.width, level.width - 2);
+        std::vector<float> caps(static_cast<std::size_t>(level.width - 2));
+        level.rock.caps(first, caps);
+        slides(&level.z[first], caps.data(), tolerance * level.side, &steep[first], level.width, level.width - 2);
     });
     std::vector<std::size_t> open;
     auto const slide = [&](std::size_t i) {
@@ -634,15 +640,12 @@ void valley_floors(TerrainLevel& level, FloorParams const& params, Run const& ru
     std::sort(starts.begin(), starts.end(), [](HeadStart const& a, HeadStart const& b) { return a.cell < b.cell; });
     std::int64_t const beyond = static_cast<std::int64_t>(longest) + 2; // rows that a river reaches at most
     std::int64_t const rows = std::max<std::int64_t>(64, 2 * beyond);
-    auto const lower = [&](std::size_t i, float distance, std::uint32_t number) {
-        float const width = widths[number];
-        if (width < least_width) {
-            return;
-        }
+    auto const factor = [&](std::size_t i, float distance, float width) {
         float const far = (distance / width + most_widening * foot_widths) / widening(level, i, params);
         float const up = std::clamp((far - 1.0F) / (foot_widths - 1.0F), 0.0F, 1.0F);
-        level.cap[i] *= floor_share + (1.0F - floor_share) * up * up;
+        return floor_share + (1.0F - floor_share) * up * up;
     };
+    std::mutex setting;
     parallel_ranges(run, (level.height - 2 + rows - 1) / rows, 1, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t strip = begin; strip < end; ++strip) {
             std::int64_t const top = 1 + strip * rows;
@@ -650,11 +653,19 @@ void valley_floors(TerrainLevel& level, FloorParams const& params, Run const& ru
             std::int64_t const first = std::max<std::int64_t>(1, top - beyond);
             NearestRiver const near =
                 nearest_in_rows(level, starts, first, std::min(level.height - 1, bottom + beyond));
+            std::vector<std::pair<std::size_t, float>> lower; // cells and factors of their caps
             for (std::int64_t i = top * level.width; i < bottom * level.width; ++i) {
                 auto const at = static_cast<std::size_t>(i - (first - 1) * level.width);
-                if (near.distance[at] < 0.0F && is_land(level.type[i])) {
-                    lower(static_cast<std::size_t>(i), near.distance[at], near.number[at]);
+                if (near.distance[at] < 0.0F && is_land(level.type[i]) && widths[near.number[at]] >= least_width) {
+                    float const by = factor(static_cast<std::size_t>(i), near.distance[at], widths[near.number[at]]);
+                    if (by != 1.0F) {
+                        lower.emplace_back(i, by);
+                    }
                 }
+            }
+            std::lock_guard const lock(setting);
+            for (auto const& [cell, by] : lower) {
+                level.rock.set_cap(cell, level.rock.cap(cell) * by);
             }
         }
     });

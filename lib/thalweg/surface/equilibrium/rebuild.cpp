@@ -187,9 +187,7 @@ private:
             ++rock.noise.octaves;
         }
         set_erodibility(level, land_.fields, rock, run_);
-        for (std::size_t i = 0; i < level.cap.size(); ++i) {
-            level.cap[i] = steepest / std::sqrt(level.erodibility[i]);
-        }
+        level.rock.limit_by_half(steepest);
         jitter(level, params_.seed, run_);
         run_.check();
         return level;
@@ -241,7 +239,7 @@ private:
             if (boost[i] != 0.0F) {
                 auto const factor = static_cast<float>(portable::exp(static_cast<double>(boost[i])));
                 uplift[i] *= factor;
-                level.cap[i] *= factor;
+                level.rock.set_cap(i, level.rock.cap(i) * factor);
             }
         }
     }

@@ -432,8 +432,8 @@ private:
 float graded_tangent(TerrainLevel const& level, EquilibriumLaw const& law, std::uint32_t i) {
     float const area = static_cast<float>(level.area[i]) * level.side * level.side + law.source_area;
     float const uplift = level.uplift.empty() ? 1.0F : level.uplift[i];
-    float const graded = creep_brings * uplift / (level.erodibility[i] * law.power(area));
-    return std::min(graded, share_of_cap * std::min(level.cap[i], steepest_tangent));
+    float const graded = creep_brings * uplift / (level.rock.erodibility(i) * law.power(area));
+    return std::min(graded, share_of_cap * std::min(level.rock.cap(i), steepest_tangent));
 }
 
 std::vector<float> heights_through(RiverCells const& rivers, std::vector<float> const& fall, std::vector<float> asked) {

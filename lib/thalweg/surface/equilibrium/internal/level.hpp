@@ -17,6 +17,7 @@
 #include <thalweg/core/run/memory.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
+#include <thalweg/surface/equilibrium/internal/rock.hpp>
 
 // Described in docs/algorithms/equilibrium_levels.md.
 
@@ -167,8 +168,6 @@ inline constexpr std::array<float, 8> step_lengths = {1.0F, 1.41421356F, 1.0F, 1
 
 /// The least tangent from a cell to its receiver: far above float precision, far below what is visible.
 inline constexpr float least_tangent = 0.002F;
-/// The steepest slope that uplift maintains at mean erodibility.
-inline constexpr float steepest_tangent = 0.3F;
 
 /// Water that enters a level.
 struct Inflow {
@@ -187,8 +186,7 @@ struct TerrainLevel {
     RiverCells rivers;
     Cells<CellType> type;
     Cells<float> z;
-    Cells<float> erodibility;
-    Cells<float> cap;                  ///< largest tangent towards the receiver
+    Rock rock;
     Cells<float> uplift;               ///< empty: 1 everywhere
     Cells<std::int8_t> direction;      ///< towards the receiver, as in d8_steps, or no_direction
     Cells<std::uint8_t> shift;         ///< position of the node in its cell: code of jitter()

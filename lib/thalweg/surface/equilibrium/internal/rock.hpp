@@ -61,8 +61,8 @@ private:
     std::vector<float> values_;
 };
 
-/// Erodibility of a level's cells, and the cap on their slopes: the largest tangent towards a receiver. Both follow from
-/// one number a cell, but where they have been set.
+/// Erodibility of a level's cells, and the cap on their slopes: the largest tangent towards a receiver. Both follow
+/// from one number a cell, but where they have been set.
 class Rock {
 public:
     enum class Cap : std::uint8_t {
