@@ -23,7 +23,7 @@ using namespace thalweg;
 
 void require(laszip_I32 failed, char const* what) {
     if (failed != 0) {
-        throw IoError(std::string("thalweg_clouds: LASzip cannot ") + what);
+        throw IoError("thalweg_clouds", std::string("thalweg_clouds: LASzip cannot ") + what);
     }
 }
 

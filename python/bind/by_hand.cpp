@@ -112,8 +112,8 @@ StreamNetwork Fields<StreamNetwork>::made(Args& in) {
     in.done();
     auto const require_one_an_arc = [&](char const* name, std::size_t count) {
         if (count != from.size()) {
-            throw BadInput(
-                fmt::format("StreamNetwork: {} has {} entries, and there are {} arcs", name, count, from.size()));
+            throw BadInput("StreamNetwork", fmt::format("StreamNetwork: {} has {} entries, and there are {} arcs", name,
+                                                        count, from.size()));
         }
     };
     require_one_an_arc("to_nodes", to.size());
@@ -123,8 +123,8 @@ StreamNetwork Fields<StreamNetwork>::made(Args& in) {
     }
     auto const node = [&](std::int64_t number) {
         if (number < 0 || static_cast<std::size_t>(number) >= nodes.size()) {
-            throw BadInput(
-                fmt::format("StreamNetwork: an arc names node {}, and there are {} nodes", number, nodes.size()));
+            throw BadInput("StreamNetwork", fmt::format("StreamNetwork: an arc names node {}, and there are {} nodes",
+                                                        number, nodes.size()));
         }
         return static_cast<NodeId>(number);
     };
@@ -163,7 +163,8 @@ template <class Triangles> void require_corners(Triangles const& triangles, std:
     for (auto const& triangle : triangles) {
         for (auto const corner : triangle) {
             if (static_cast<std::uint64_t>(corner) >= vertices) {
-                throw BadInput(fmt::format("{}: a triangle names vertex {}, and there are {}", what, corner, vertices));
+                throw BadInput(what,
+                               fmt::format("{}: a triangle names vertex {}, and there are {}", what, corner, vertices));
             }
         }
     }
@@ -178,7 +179,7 @@ void require_sound(Tin const& tin) {
 void require_sound(LatticeMesh const& mesh) {
     require_corners(mesh.triangles, mesh.vertices.size(), "LatticeMesh");
     if (!mesh.places.empty() && mesh.places.size() != mesh.vertices.size()) {
-        throw BadInput("LatticeMesh: places are one per vertex");
+        throw BadInput("LatticeMesh", "LatticeMesh: places are one per vertex");
     }
 }
 
@@ -187,12 +188,14 @@ void require_sound(Channels const& channels) {
     auto const fits = [&](std::size_t size) { return size == 0 || size == count; };
     if (channels.receiver.size() != count || !fits(channels.z.size()) || !fits(channels.level.size()) ||
         !fits(channels.lake_z.size())) {
-        throw BadInput("Channels: receiver is one per cell, and so are z, level and lake_z where they are given");
+        throw BadInput("Channels",
+                       "Channels: receiver is one per cell, and so are z, level and lake_z where they are given");
     }
     for (std::size_t i = 0; i < count; ++i) {
         if (channels.cell[i] < 0 || channels.cell[i] >= channels.grid.cells() || channels.receiver[i] < -1 ||
             channels.receiver[i] >= static_cast<ChannelId>(i)) {
-            throw BadInput(fmt::format("Channels: number {} has cell {} and receiver {}; cells lie in the grid, and a "
+            throw BadInput("Channels",
+                           fmt::format("Channels: number {} has cell {} and receiver {}; cells lie in the grid, and a "
                                        "receiver stands before its cell",
                                        i, channels.cell[i], channels.receiver[i]));
         }
@@ -206,6 +209,7 @@ void require_sound(network::ChannelsOfArcs const& drawn) {
         for (std::int64_t const number : cells) {
             if (number < 0 || number >= count) {
                 throw BadInput(
+                    "network.ChannelsOfArcs",
                     fmt::format("ChannelsOfArcs: of_arc names channel cell {}, and there are {}", number, count));
             }
         }
@@ -216,13 +220,14 @@ void require_sound(Grid const& grid) {
     constexpr std::int64_t most = std::int64_t{1} << 40;
     if (!(grid.cell_m > 0.0) || !std::isfinite(grid.cell_m) || !std::isfinite(grid.west) ||
         !std::isfinite(grid.north)) {
-        throw BadInput(fmt::format("Grid: cells of {} at ({}, {}); their side is a number above 0, and their place is "
+        throw BadInput("Grid",
+                       fmt::format("Grid: cells of {} at ({}, {}); their side is a number above 0, and their place is "
                                    "finite",
                                    grid.cell_m, grid.west, grid.north));
     }
     if (grid.width < 0 || grid.height < 0 || (grid.height > 0 && grid.width > most / grid.height)) {
         throw BadInput(
-            fmt::format("Grid: {} x {} cells are no grid; it has at most 2^40 cells", grid.width, grid.height));
+            "Grid", fmt::format("Grid: {} x {} cells are no grid; it has at most 2^40 cells", grid.width, grid.height));
     }
 }
 
@@ -233,20 +238,21 @@ void require_sound(ElevatedNetwork const& network) {
         fits = network.arc_z[a].size() == plan.arc(a).line.size();
     }
     if (!fits) {
-        throw BadInput("ElevatedNetwork: heights are one per node, and one per vertex of each arc");
+        throw BadInput("ElevatedNetwork", "ElevatedNetwork: heights are one per node, and one per vertex of each arc");
     }
 }
 
 void require_sound(RiverLine const& line) {
     if (line.vertices.size() < 2) {
-        throw BadInput(fmt::format("RiverLine: a line of {} vertices; it needs two", line.vertices.size()));
+        throw BadInput("RiverLine",
+                       fmt::format("RiverLine: a line of {} vertices; it needs two", line.vertices.size()));
     }
 }
 
 void require_sound(flow::FlowField const& drainage) {
     Raster<flow::Direction> const& direction = drainage.direction;
     if (direction.cells() == 0 || !(drainage.area_cells.grid() == direction.grid())) {
-        throw BadInput("FlowField: direction and area_cells are rasters on one grid");
+        throw BadInput("flow.FlowField", "FlowField: direction and area_cells are rasters on one grid");
     }
     flow::follow(direction);
 }
@@ -263,14 +269,14 @@ void require_sound(growth::TokunagaTree const& tree) {
         }
     }
     if (!fits) {
-        throw BadInput("TokunagaTree: links are numbered from the outlet upstream, from 0");
+        throw BadInput("growth.TokunagaTree", "TokunagaTree: links are numbered from the outlet upstream, from 0");
     }
 }
 
 void require_sound(growth::LSystem const& system) {
     for (auto const& [sign, words] : system.rules) {
         if (words.empty()) {
-            throw BadInput(fmt::format("LSystem: the sign {} has no rule", sign));
+            throw BadInput("growth.LSystem", fmt::format("LSystem: the sign {} has no rule", sign));
         }
     }
 }

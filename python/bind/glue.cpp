@@ -112,16 +112,16 @@ py::object grid_of(py::handle value) {
 } // namespace
 
 Place Place::of(std::size_t element) const {
-    return {function, fmt::format("{}[{}]", name, element)};
+    return {function, fmt::format("{}[{}]", name, element), within};
 }
 
 Place Place::of(char const* field) const {
-    return {function, fmt::format("{}.{}", name, field)};
+    return {function, fmt::format("{}.{}", name, field), within};
 }
 
 void refuse_type(Place const& place, py::handle value, std::string const& wanted) {
     raise(PyExc_TypeError,
-          fmt::format("{}: {} is {}; it must be {}", place.function, place.name, shown(value), wanted));
+          fmt::format("{}: {} is {}; it must be {}", place.function, place.whole(), shown(value), wanted));
 }
 
 py::array array_of(py::dtype const& type, std::vector<py::ssize_t> shape, void const* memory, py::handle owner) {
@@ -183,7 +183,7 @@ Finding take_finding(py::handle value, Place const& place) {
     if (dict.contains("where") && dict["where"].is_none()) {
         dict.attr("pop")("where");
     }
-    Args in(place.function + ": " + place.name, py::args(), py::kwargs(py::reinterpret_borrow<py::kwargs>(dict)));
+    Args in(place.function, py::args(), py::kwargs(py::reinterpret_borrow<py::kwargs>(dict)), place.whole() + ": ");
     std::string kind;
     in.option("kind", kind);
     Finding finding{FindingKind::named(kind)};
@@ -276,8 +276,8 @@ std::size_t take_word(py::handle value, Place const& place, std::span<char const
     std::string const word = text_or_nothing(value);
     auto const found = std::find(known.begin(), known.end(), word);
     if (found == known.end()) {
-        throw BadParameter(fmt::format("{}: {} is '{}'; it must be one of {}.{}", place.function, place.name, word,
-                                       fmt::join(known, ", "), did_you_mean(word, known)));
+        throw BadParameter(place.function, fmt::format("{} is '{}'; it must be one of {}.{}", place.whole(), word,
+                                                       fmt::join(known, ", "), did_you_mean(word, known)));
     }
     return static_cast<std::size_t>(found - known.begin());
 }
@@ -351,8 +351,8 @@ std::pair<py::array, Grid> take_raster(py::handle value, Place const& place, py:
         refuse_type(place, value, "a raster");
     }
     if (values.shape(0) != grid.height || values.shape(1) != grid.width) {
-        throw BadInput(fmt::format("{}: {} has {} x {} values, and its grid {} x {} cells", place.function, place.name,
-                                   values.shape(1), values.shape(0), grid.width, grid.height));
+        throw BadInput(place.function, fmt::format("{} has {} x {} values, and its grid {} x {} cells", place.whole(),
+                                                   values.shape(1), values.shape(0), grid.width, grid.height));
     }
     if (type.kind() == 'f' && !grid.crs.empty() && place.function.find("io.") != 0 && !is_of_program(place.function)) {
         from_package("thalweg._raster", "say_unit")(grid.crs, place.name);
@@ -369,9 +369,9 @@ void require_codes(py::array const& values, Place const& place, std::vector<int>
     py::object const known = numpy.attr("isin")(values, list);
     if (!py::bool_(known.attr("all")())) {
         py::object const at = numpy.attr("argwhere")(numpy.attr("logical_not")(known)).attr("__getitem__")(0);
-        throw BadInput(fmt::format("{}: {} is {} in row {}, column {} (from 0), which is no code of it; they are {}",
-                                   place.function, place.name,
-                                   std::string(py::str(values.attr("__getitem__")(py::tuple(at)))),
+        throw BadInput(place.function,
+                       fmt::format("{} is {} in row {}, column {} (from 0), which is no code of it; they are {}",
+                                   place.whole(), std::string(py::str(values.attr("__getitem__")(py::tuple(at)))),
                                    std::string(py::str(at.attr("__getitem__")(0))),
                                    std::string(py::str(at.attr("__getitem__")(1))), fmt::join(codes, ", ")));
     }
@@ -408,8 +408,8 @@ py::dict take_dict(py::handle value, Place const& place) {
     return py::reinterpret_borrow<py::dict>(value);
 }
 
-Args::Args(std::string function, py::args positional, py::kwargs named)
-    : function_(std::move(function)), outer_(std::exchange(current, this)),
+Args::Args(std::string function, py::args positional, py::kwargs named, std::string within)
+    : function_(std::move(function)), within_(std::move(within)), outer_(std::exchange(current, this)),
       takes_files_(outer_ != nullptr
                        ? outer_->takes_files_
                        : function_.find('.') != std::string::npos && function_.find(".write_") == std::string::npos &&
@@ -488,7 +488,7 @@ py::handle Args::next(char const* name) {
     if (next_ < positional_.size()) {
         py::handle const value(PyTuple_GetItem(positional_.ptr(), static_cast<py::ssize_t>(next_++)));
         if (by_name) {
-            raise(PyExc_TypeError, fmt::format("{}: {} is given twice", function_, name));
+            raise(PyExc_TypeError, fmt::format("{}: {}{} is given twice", function_, within_, name));
         }
         return value;
     }
@@ -498,7 +498,7 @@ py::handle Args::next(char const* name) {
 py::handle Args::required(char const* name) {
     py::handle const value = next(name);
     if (!value) {
-        raise(PyExc_TypeError, fmt::format("{}: {} is missing", function_, name));
+        raise(PyExc_TypeError, fmt::format("{}: {}{} is missing", function_, within_, name));
     }
     return value;
 }
@@ -519,7 +519,8 @@ py::handle Args::named(char const* name) {
 py::handle Args::required_by_name(char const* name) {
     py::handle const value = named(name);
     if (!value) {
-        raise(PyExc_TypeError, fmt::format("{}: {} is missing; it has no default: give {}=...", function_, name, name));
+        raise(PyExc_TypeError,
+              fmt::format("{}: {}{} is missing; it has no default: give {}=...", function_, within_, name, name));
     }
     return value;
 }
@@ -527,14 +528,14 @@ py::handle Args::required_by_name(char const* name) {
 void Args::done() const {
     if (next_ < positional_.size()) {
         raise(PyExc_TypeError,
-              fmt::format("{}: {} arguments are given without their names, and it takes {}; name the others", function_,
-                          positional_.size(), next_));
+              fmt::format("{}: {}{} arguments are given without their names, and it takes {}; name the others",
+                          function_, within_, positional_.size(), next_));
     }
     for (auto const& [key, value] : named_) {
         std::string const name = text_or_nothing(key);
         if (std::find(asked_.begin(), asked_.end(), name) == asked_.end()) {
-            raise(PyExc_TypeError,
-                  fmt::format("{}: there is no argument '{}'.{}", function_, name, did_you_mean(name, asked_)));
+            raise(PyExc_TypeError, fmt::format("{}: {}there is no argument '{}'.{}", function_, within_, name,
+                                               did_you_mean(name, asked_)));
         }
     }
 }
@@ -617,8 +618,8 @@ void Args::work(std::function<void(Run const&)> const& stage) {
     Run run;
     option("threads", run.threads);
     if (run.threads < 0 || run.threads > 1024) {
-        throw BadParameter(
-            fmt::format("{}: threads is {}; it must be from 0 to 1024, 0 for every core", function_, run.threads));
+        throw BadParameter(function_,
+                           fmt::format("threads is {}; it must be from 0 to 1024, 0 for every core", run.threads));
     }
     if (py::handle const device = named("device")) {
         static constexpr std::array<char const*, 2> devices = {"cpu", "opencl"};

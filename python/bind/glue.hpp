@@ -45,6 +45,10 @@ namespace py = pybind11;
 struct Place {
     std::string function;
     std::string name;
+    std::string within = {}; ///< "params: " of a field of the argument params
+
+    /// \return the name with what it is within: "params: sigma_cells"
+    std::string whole() const { return within + name; }
 
     /// \return the place of an element
     Place of(std::size_t element) const;
@@ -324,7 +328,8 @@ private:
 /// The arguments of a call.
 class Args {
 public:
-    Args(std::string function, py::args positional, py::kwargs named);
+    /// \param within as in Place
+    Args(std::string function, py::args positional, py::kwargs named, std::string within = {});
     Args(Args const&) = delete;
     Args& operator=(Args const&) = delete;
     ~Args();
@@ -354,7 +359,7 @@ public:
     /// An argument that is given by its name alone; null: not given.
     py::handle named(char const* name);
     py::handle required_by_name(char const* name);
-    Place place(char const* name) const { return {function_, name}; }
+    Place place(char const* name) const { return {function_, name, within_}; }
     std::string const& function() const { return function_; }
 
     template <class T> void option(char const* name, T& target) {
@@ -408,6 +413,7 @@ private:
     friend std::string take_text(py::handle value, Place const& place);
 
     std::string function_;
+    std::string within_;
     Args* outer_;      ///< the call in whose arguments this one's are
     bool takes_files_; ///< a table or raster may stand for a file that is read during the call
     py::list files_;   ///< of tables and rasters given instead of names
@@ -563,8 +569,8 @@ template <class T> bool is_given(py::handle value) {
 template <class T> T take_record(py::handle value, Place const& place) {
     if constexpr (Fields<T>::can_be_made) {
         if (py::isinstance<py::dict>(value)) {
-            Args in(place.function + ": " + place.name, py::args(),
-                    py::kwargs(py::reinterpret_borrow<py::kwargs>(value)));
+            Args in(place.function, py::args(), py::kwargs(py::reinterpret_borrow<py::kwargs>(value)),
+                    place.whole() + ": ");
             return Fields<T>::made(in);
         }
         if constexpr (Fields<T>::is_raster) {

@@ -16,7 +16,7 @@ TEST(SameGrid, TheFirstDifferenceIsNamed) {
     Grid const grid{20, 10, 30.0, 500000.0, 4000000.0, "EPSG:32631"};
     auto const said = [&](Grid const& other) -> std::string {
         try {
-            require_same_grid(grid, other, "flow.route_dinf: the DEM and its directions", "route this DEM");
+            require_same_grid(grid, other, "flow.route_dinf", "the DEM and its directions", "route this DEM");
         } catch (BadInput const& error) {
             return error.what();
         }

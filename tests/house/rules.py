@@ -66,8 +66,14 @@ UNREPEATABLE = re.compile(r"\bstd::(?:shuffle|sample|random_device|reduce|transf
 DISTRIBUTION = re.compile(r"\b(?:std::)?(?:uniform_int|uniform_real|normal|bernoulli|binomial|geometric|poisson|exponential|"
                           r"gamma|weibull|extreme_value|lognormal|chi_squared|cauchy|fisher_f|student_t|discrete|"
                           r"piecewise_constant|piecewise_linear)_distribution\b")
-# thalweg::Error takes such a beginning for the function that throws and shows users the rest.
+# thalweg::Error takes the function that throws as an argument of its own, and users read the other.
 PREFIX = re.compile(r'"([a-z]+)\.\w+: ')
+# Where a call names the function that throws: what begins the call, and which of its arguments that is.
+PLACES = [(re.compile(r"\bthrow (?:BadParameter|BadInput|NotConverged|IoError|Cancelled|NotDrawn)\("), 0),
+          (re.compile(r"\brefuse_if<\w+>\("), 1), (re.compile(r"\brequire_in\("), 0),
+          (re.compile(r"\brequire_same_grid\("), 2), (re.compile(r"\bAbout const \w+\{"), 0)]
+PLACE = re.compile(r'"(\w+)\.(\w+)"')
+LITERAL = re.compile(r'R"([^()\s]*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'', re.DOTALL)
 # Findings are values: Run::report and line_of() print them, and nothing reads their words.
 WARNING_AS_TEXT = re.compile(r"""["'`]warning: |(?:starts_with|startswith|startsWith)\(["'`]warning""")
 # What GDAL says of a band: OpenedHeights asks for all of it, so that every command reads a DEM alike.
@@ -192,8 +198,8 @@ def check_source(name, lines):
             yield number, f"{found[1]}&: values that flow are not changed; take it by value or const and return one"
         if found := DISTRIBUTION.search(code):
             yield number, f"{found[0]}: distributions differ between libraries; use core/numbers/random.hpp"
-        if module and (found := PREFIX.search(code)) and found[1] in MODULES and found[1] != module:
-            yield number, f"{found[0]}: an error names its own module first; write a key as key = value or [section]"
+        if module and (found := PREFIX.search(code)) and found[1] in MODULES and "std::logic_error" not in code:
+            yield number, f"{found[0]}: an error takes its function as an argument; write a key as key = value or [section]"
         if not in_lib:
             if UNASKED.search(code) and not lines[max(number - 2, 0)].endswith("("):
                 yield number, "rc::check: its verdict is not looked at; write ASSERT_TRUE(rc::check(...))"
@@ -208,6 +214,49 @@ def check_source(name, lines):
             found = LIBM_CALL.search(code) or (LIBM_LOG.search(code) if has_cmath else None)
             if found:
                 yield number, f"{found[0].rstrip('(')} of libm has other bits on other machines; use core/numbers/elementary.hpp"
+
+
+def argument_at(text, begin, number):
+    """An argument of a call, whose arguments begin there; "" where it has fewer."""
+    depth = 0
+    at = begin
+    while at < len(text):
+        literal = LITERAL.match(text, at)
+        if literal and not (text[at] == "'" and text[at - 1].isalnum()):  # 1'000 is a number
+            at = literal.end()
+            continue
+        if text[at] in "([{":
+            depth += 1
+        elif text[at] in ")]}":
+            depth -= 1
+        if depth < 0 or (depth == 0 and text[at] == ","):
+            if number == 0 or depth < 0:
+                return text[begin:at].strip() if number == 0 else ""
+            number -= 1
+            begin = at + 1
+        at += 1
+    return ""
+
+
+def check_places(sources):
+    """Errors of the library that name a function or type as their place which no header of their module declares."""
+    headers = collections.defaultdict(str)
+    for name, lines in sources:
+        if name.endswith(".hpp"):
+            headers[place(name)] += "\n".join(line.split("//")[0] for line in lines)
+    for name, lines in sources:
+        module = place(name)
+        text = "\n".join(lines)
+        for begin, number in PLACES:
+            for call in begin.finditer(text):
+                found = PLACE.fullmatch(argument_at(text, call.end(), number))
+                if not found:
+                    continue
+                line = text.count("\n", 0, call.start()) + 1
+                if found[1] != module:
+                    yield f"{name}:{line}: {found[0]}: an error names its own module"
+                elif not re.search(r"\b(?:class|struct) %s\b|\b%s\(" % (found[2], found[2]), headers[module]):
+                    yield f"{name}:{line}: {found[0]}: no header of {module} declares it; name the function that was called"
 
 
 def types_of(lines):
@@ -292,7 +341,7 @@ def violations(root):
         if name.endswith(CPP) and name.startswith("lib/"):
             sources.append((name, lines))
         found += [f"{name}:{number}: {text}" for number, text in sorted(faults)]
-    return found + list(check_types(sources)) + list(check_umbrellas(sources))
+    return found + list(check_types(sources)) + list(check_places(sources)) + list(check_umbrellas(sources))
 
 
 if __name__ == "__main__":

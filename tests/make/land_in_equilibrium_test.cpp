@@ -106,7 +106,7 @@ void expect_lawful(MakeResult const& t) {
 Check const& check_of(MakeResult const& t, char const* name) {
     auto const found = std::ranges::find(t.assessment.checks, std::string_view(name), &Check::name);
     if (found == t.assessment.checks.end()) {
-        throw BadInput(std::string("no check ") + name);
+        throw BadInput("test.check_of", std::string("no check ") + name);
     }
     return *found;
 }

@@ -300,7 +300,7 @@ TEST(Requests, AFileThatCannotBeReadIsAnsweredInWords) {
     ServeParams const params;
     Server server(params, {.get = [](std::string const& path) -> std::optional<Answer> {
                       if (path == "gone") {
-                          throw BadInput("gone is no longer there");
+                          throw BadInput("test.answer", "gone is no longer there");
                       }
                       if (path == "large") {
                           throw std::bad_alloc();

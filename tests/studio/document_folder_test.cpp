@@ -195,7 +195,7 @@ TEST_F(DocumentFolders, InputsAreTakenIn) {
 TEST_F(DocumentFolders, AreOpenInOneProcessAlone) {
     std::string const folder = made("d");
     DocumentFolder const document(folder);
-    EXPECT_TRUE(has(error_of([&] { DocumentFolder const second(folder); }), "BadInput studio.document_folder",
+    EXPECT_TRUE(has(error_of([&] { DocumentFolder const second(folder); }), "BadInput studio.DocumentFolder",
                     "is open in another"));
 }
 

@@ -72,7 +72,7 @@ NotDrawn refusal(Drawing const& drawing, DrawStep const& step) {
     } catch (NotDrawn const& refused) {
         return refused;
     }
-    return NotDrawn("nothing was refused");
+    return {"test.refusal", "nothing was refused"};
 }
 
 bool has(NotDrawn const& refused, std::string const& words) {

@@ -71,11 +71,12 @@ std::string blend_in_words(make::BlendedDem const& made, blend::Holes holes) {
 
 void take_numbers(BlendOptions& options) {
     if (!options.at.empty()) {
-        refuse_if<BadParameter>(options.at.size() != 2, "--at has {} numbers; it takes two, X,Y", options.at.size());
+        refuse_if<BadParameter>(options.at.size() != 2, "commands.run_blend", "--at has {} numbers; it takes two, X,Y",
+                                options.at.size());
         options.params.patch.at = Vec2{options.at[0], options.at[1]};
     }
     if (!options.window.empty()) {
-        refuse_if<BadParameter>(options.window.size() != 4,
+        refuse_if<BadParameter>(options.window.size() != 4, "commands.run_blend",
                                 "--window has {} numbers; it takes four, COLUMN,ROW,WIDTH,HEIGHT",
                                 options.window.size());
         options.params.patch.window = {options.window[0], options.window[1], options.window[2], options.window[3]};

@@ -27,13 +27,14 @@ struct DeformOptions {
 void take_numbers(DeformOptions& options) {
     std::vector<double> const& pull = options.pull;
     std::vector<double> const& axis = options.axis;
-    refuse_if<BadParameter>(pull.size() % 3 != 0, "--pull has {} numbers; it takes three for each place, X,Y,Z",
-                            pull.size());
+    refuse_if<BadParameter>(pull.size() % 3 != 0, "commands.run_deform",
+                            "--pull has {} numbers; it takes three for each place, X,Y,Z", pull.size());
     for (std::size_t i = 0; i < pull.size(); i += 3) {
         options.params.handles.push_back({pull[i], pull[i + 1], pull[i + 2]});
     }
     if (!axis.empty()) {
-        refuse_if<BadParameter>(axis.size() != 3, "--axis has {} numbers; it takes three, X,Y,Z", axis.size());
+        refuse_if<BadParameter>(axis.size() != 3, "commands.run_deform", "--axis has {} numbers; it takes three, X,Y,Z",
+                                axis.size());
         options.params.axis = Vec3{axis[0], axis[1], axis[2]};
     }
 }

@@ -63,12 +63,12 @@ void print_table(commands::GrowResult const& c) {
 void check_output(GrowOptions const& options, Session const& session) {
     commands::GrowParams const& params = options.params;
     if (!params.rules.empty()) {
-        refuse_if<BadParameter>(options.shapes_tree,
+        refuse_if<BadParameter>(options.shapes_tree, "commands.run_grow",
                                 "--generator, --order and --rule are those of Tokunaga networks: --rules has its own");
-        refuse_if<BadParameter>(params.output.empty() == !params.word,
+        refuse_if<BadParameter>(params.output.empty() == !params.word, "commands.run_grow",
                                 "--rules needs --lsystem, to print the word, or -o FILE, to draw it");
     } else {
-        refuse_if<BadParameter>(params.output.empty() && params.word && session.json,
+        refuse_if<BadParameter>(params.output.empty() && params.word && session.json, "commands.run_grow",
                                 "thalweg grow prints a word or JSON: give --lsystem or --json, not both");
     }
 }

@@ -106,7 +106,8 @@ int make_ensemble(MakeOptions& options, Session& session) {
     if (!options.seeds.empty()) {
         auto const seeds = two_numbers(options.seeds, '-');
         if (!seeds || (*seeds)[0] > (*seeds)[1]) {
-            throw BadParameter(fmt::format("--seeds {}: write A-B, two whole numbers, B not below A", options.seeds));
+            throw BadParameter("commands.run_ensemble",
+                               fmt::format("--seeds {}: write A-B, two whole numbers, B not below A", options.seeds));
         }
         params.first_seed = static_cast<std::uint64_t>((*seeds)[0]);
         params.members = (*seeds)[1] - (*seeds)[0] + 1;
@@ -114,7 +115,8 @@ int make_ensemble(MakeOptions& options, Session& session) {
     if (!options.share.empty()) {
         auto const share = two_numbers(options.share, '/');
         if (!share) {
-            throw BadParameter(fmt::format("--share {}: write K/N, K from 1 to N", options.share));
+            throw BadParameter("commands.run_ensemble",
+                               fmt::format("--share {}: write K/N, K from 1 to N", options.share));
         }
         params.share = (*share)[0];
         params.shares = (*share)[1];
@@ -180,6 +182,7 @@ int make(MakeOptions& options, bool rebuilds, Session& session) {
     }
     if (int const ranks = launched_ranks(); ranks > 1) {
         throw BadInput(
+            "commands.run_make",
             fmt::format("mpirun has started {} processes, and one terrain is made by one: give --ensemble N, or "
                         "start it without mpirun and give --threads",
                         ranks));

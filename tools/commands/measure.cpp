@@ -65,7 +65,7 @@ std::optional<double> theta_of(std::string const& text) {
     if (text == "fit") {
         return std::nullopt;
     }
-    refuse_if<BadParameter>(!CLI::detail::lexical_cast(text, number),
+    refuse_if<BadParameter>(!CLI::detail::lexical_cast(text, number), "commands.run_measure",
                             "tools.measure: --theta {} is neither a number from 0 to 2 nor fit", text);
     return number;
 }

@@ -23,6 +23,7 @@ std::map<std::string, std::string> fields_by_quantity(std::vector<std::string> c
     for (std::string const& field : fields) {
         std::size_t const equals = field.find('=');
         refuse_if<BadParameter>(equals == std::string::npos || equals == 0 || equals + 1 == field.size(),
+                                "commands.fields_by_quantity",
                                 "--field {}: write QUANTITY=NAME, such as ds_arc=NEXT_DOWN", field);
         named[field.substr(0, equals)] = field.substr(equals + 1);
     }

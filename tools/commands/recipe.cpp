@@ -68,8 +68,8 @@ std::vector<KeyHelp> keys_named(std::string const& word) {
             known.push_back(key.path);
             known.push_back(section_of(key.path));
         }
-        throw BadParameter(
-            fmt::format("unknown key '{}'.{} `thalweg recipe` lists every key.", word, did_you_mean(name, known)));
+        throw BadParameter("commands.recipe", fmt::format("unknown key '{}'.{} `thalweg recipe` lists every key.", word,
+                                                          did_you_mean(name, known)));
     }
     return found;
 }

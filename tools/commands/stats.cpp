@@ -105,7 +105,7 @@ void print_recipe(recipe::DemRecipe const& made) {
 }
 
 int stats(commands::StatsParams const& params, Session const& session) {
-    refuse_if<BadParameter>(params.recipe && session.json,
+    refuse_if<BadParameter>(params.recipe && session.json, "commands.run_stats",
                             "thalweg stats prints a recipe or JSON: give --recipe or --json, not both");
     commands::StatsResult const found = commands::run_stats(params, session.run);
     if (found.recipe) {

@@ -99,6 +99,7 @@ int run_studio(StudioOptions& options, Session const& session) {
     fmt::print("{}\n", address);
     if (std::fflush(stdout) != 0) { // nobody would find it
         throw IoError(
+            "commands.studio",
             "the address cannot be written to standard output: send it to a file or a terminal that takes it");
     }
     std::optional<WayIn> way_in;

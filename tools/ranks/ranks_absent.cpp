@@ -13,6 +13,7 @@ std::string mpi_version() {
 std::unique_ptr<ensemble::Ranks> join_ranks() {
     if (launched_ranks() > 1) {
         throw BadInput(
+            "ensemble.Ranks",
             "this thalweg was built without MPI, and mpirun has started several: start one, share the members "
             "by --share K/N, or install libopenmpi-dev and build thalweg again");
     }

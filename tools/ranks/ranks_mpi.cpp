@@ -28,7 +28,7 @@ public:
         MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
         if (provided < MPI_THREAD_SERIALIZED) {
             MPI_Finalize();
-            throw BadInput("this MPI allows no threads: it has no MPI_THREAD_SERIALIZED");
+            throw BadInput("ensemble.Ranks", "this MPI allows no threads: it has no MPI_THREAD_SERIALIZED");
         }
         MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
         MPI_Comm_size(MPI_COMM_WORLD, &count_);

@@ -20,7 +20,7 @@ using solver::outside_cell;
 
 void check(Raster<float> const& target, Mask const& region, DeformParams const& params) {
     require_in("blend.deform", "scale", params.scale, Range::finite());
-    require_same_grid(region.grid(), target.grid(), "blend.deform: the region and the target", "they share a grid");
+    require_same_grid(region.grid(), target.grid(), "blend.deform", "the region and the target", "they share a grid");
 }
 
 // Cells with data in the region; infinite ones are rejected.
@@ -29,8 +29,9 @@ Mask bendable(Raster<float> const& target, Mask const& region) {
     for (std::int64_t i = 0; i < target.cells(); ++i) {
         if (region[i] != 0 && std::isinf(target[i])) {
             Cell const c = target.grid().at(i);
-            throw BadInput(fmt::format("blend.deform: the target's height at column {}, row {} is infinite: correct it",
-                                       c.col, c.row));
+            throw BadInput(
+                "blend.deform",
+                fmt::format("the target's height at column {}, row {} is infinite: correct it", c.col, c.row));
         }
         cells[i] = region[i] != 0 && !std::isnan(target[i]) ? 1 : 0;
     }
@@ -43,8 +44,8 @@ Mask grip(Mask& cells, std::vector<Handle> const& handles, Raster<double>& heigh
     for (Handle const& handle : handles) {
         Cell const c = handle.cell;
         auto const refuse = [&](std::string const& why) {
-            throw BadInput(
-                fmt::format("blend.deform: the handle at column {}, row {} to {} m {}", c.col, c.row, handle.z, why));
+            throw BadInput("blend.deform",
+                           fmt::format("the handle at column {}, row {} to {} m {}", c.col, c.row, handle.z, why));
         };
         if (!cells.grid().contains(c)) {
             refuse(fmt::format("lies outside the target of {} x {} cells", cells.width(), cells.height()));

@@ -43,19 +43,17 @@ std::map<std::uint32_t, std::uint32_t> boundary(Tin const& mesh, std::string con
     std::vector<DirectedEdge> const edges = sorted_edges(mesh);
     auto const twice = std::adjacent_find(edges.begin(), edges.end());
     if (twice != edges.end()) {
-        throw BadInput(
-            fmt::format("blend.outline_of: {}: two triangles lie on the same side of the edge from {} to {}; "
-                        "repair the mesh",
-                        name, place(mesh.vertices[twice->first]), place(mesh.vertices[twice->second])));
+        throw BadInput("blend.outline_of",
+                       fmt::format("{}: two triangles lie on the same side of the edge from {} to {}; repair the mesh",
+                                   name, place(mesh.vertices[twice->first]), place(mesh.vertices[twice->second])));
     }
     std::map<std::uint32_t, std::uint32_t> next;
     for (DirectedEdge const& e : edges) {
         if (!std::binary_search(edges.begin(), edges.end(), DirectedEdge{e.second, e.first}) &&
             !next.insert(e).second) {
-            throw BadInput(
-                fmt::format("blend.outline_of: {}: its boundary touches itself at {}; the mesh must have one "
-                            "simple boundary",
-                            name, place(mesh.vertices[e.first])));
+            throw BadInput("blend.outline_of",
+                           fmt::format("{}: its boundary touches itself at {}; the mesh must have one simple boundary",
+                                       name, place(mesh.vertices[e.first])));
         }
     }
     return next;
@@ -69,10 +67,9 @@ void require_simple(Tin const& mesh, std::vector<std::uint32_t> const& ring, std
     line[0].push_back(line[0].front());
     for (geometry::Crossing const& c : geometry::crossings(line, run)) {
         bool const closes = (c.segment == 0 && c.along == 0.0) || (c.segment + 1 == ring.size() && c.along == 1.0);
-        refuse_if<BadInput>(
-            !closes,
-            "blend.outline_of: {}: its boundary meets itself in plan at ({}, {}): the mesh covers itself there", name,
-            c.at.x, c.at.y);
+        refuse_if<BadInput>(!closes, "blend.outline_of",
+                            "{}: its boundary meets itself in plan at ({}, {}): the mesh covers itself there", name,
+                            c.at.x, c.at.y);
     }
 }
 
@@ -146,8 +143,8 @@ std::vector<double> heights_on(Tin const& target, std::vector<Triangle> const& n
     std::vector<double> heights;
     for (std::size_t i = 0; i < outline.size(); ++i) {
         if (!found[i]) {
-            throw BadInput(fmt::format("blend.cut_tin: the patch leaves the target at ({}, {}); it must lie within",
-                                       outline[i].x, outline[i].y));
+            throw BadInput("blend.cut_tin", fmt::format("the patch leaves the target at ({}, {}); it must lie within",
+                                                        outline[i].x, outline[i].y));
         }
         heights.push_back(*found[i]);
     }
@@ -324,14 +321,15 @@ void require_whole(Tin const& target, std::vector<Triangle> const& near, Overlay
         // Slivers left by rounding along the target's edge do not count.
         if (where[i].in_region && !where[i].in_target && here > 1e-12 * before_cut) {
             Vec3 const& p = tin.vertices[tin.triangles[i][0]];
-            throw BadInput(fmt::format(
-                "blend.cut_tin: the patch leaves the target near ({}, {}); it must lie within, and not over its holes",
-                p.x, p.y));
+            throw BadInput(
+                "blend.cut_tin",
+                fmt::format("the patch leaves the target near ({}, {}); it must lie within, and not over its holes",
+                            p.x, p.y));
         }
     }
-    refuse_if<BadInput>(std::fabs(after_cut - before_cut) > 1e-6 * before_cut,
-                        "blend.cut_tin: the target covers itself in plan where the patch lies: its triangles there "
-                        "have {} m2, their outline {} m2; repair the target",
+    refuse_if<BadInput>(std::fabs(after_cut - before_cut) > 1e-6 * before_cut, "blend.cut_tin",
+                        "the target covers itself in plan where the patch lies: its triangles there have {} m2, their "
+                        "outline {} m2; repair the target",
                         before_cut, after_cut);
 }
 
@@ -428,8 +426,9 @@ void require_area(Tin const& tin) {
         Vec3 const& a = tin.vertices[t[0]];
         refuse_if<BadInput>(
             geometry::side_of_line(in_plan(a), in_plan(tin.vertices[t[1]]), in_plan(tin.vertices[t[2]])) <= 0,
-            "blend.fuse_tin: near ({}, {}) vertices of the target and of the patch's outline lie too "
-            "close to be told apart; move the patch a little",
+            "blend.fuse_tin",
+            "near ({}, {}) vertices of the target and of the patch's outline lie too close to be told apart; move the "
+            "patch a little",
             a.x, a.y);
     }
 }
@@ -442,17 +441,17 @@ Tin facing_up(Tin mesh, std::string const& name) {
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         auto const& t = mesh.triangles[i];
         for (std::uint32_t const v : t) {
-            refuse_if<BadInput>(v >= mesh.vertices.size(),
-                                "blend.facing_up: {}: triangle {} names a vertex that is not there", name, i + 1);
+            refuse_if<BadInput>(v >= mesh.vertices.size(), "blend.facing_up",
+                                "{}: triangle {} names a vertex that is not there", name, i + 1);
             Vec3 const& p = mesh.vertices[v];
-            refuse_if<BadInput>(!is_finite(p), "blend.facing_up: {}: vertex {} is not finite", name, v + 1);
+            refuse_if<BadInput>(!is_finite(p), "blend.facing_up", "{}: vertex {} is not finite", name, v + 1);
         }
         int const side = geometry::side_of_line(in_plan(mesh.vertices[t[0]]), in_plan(mesh.vertices[t[1]]),
                                                 in_plan(mesh.vertices[t[2]]));
         if (side == 0) {
-            throw BadInput(fmt::format("blend.facing_up: {}: triangle {} at {} has no area in plan; only meshes with "
-                                       "one height at each place can be blended",
-                                       name, i + 1, place(mesh.vertices[t[0]])));
+            throw BadInput("blend.facing_up", fmt::format("{}: triangle {} at {} has no area in plan; only meshes with "
+                                                          "one height at each place can be blended",
+                                                          name, i + 1, place(mesh.vertices[t[0]])));
         }
         if (side < 0 && down++ == 0) {
             first_down = i;
@@ -462,10 +461,11 @@ Tin facing_up(Tin mesh, std::string const& name) {
         return mesh;
     }
     if (down < mesh.triangles.size()) {
-        throw BadInput(fmt::format(
-            "blend.facing_up: {} is folded in plan: {} of {} triangles face down, triangle {} at "
-            "{} first; only meshes with one height at each place can be blended",
-            name, down, mesh.triangles.size(), first_down + 1, place(mesh.vertices[mesh.triangles[first_down][0]])));
+        throw BadInput("blend.facing_up",
+                       fmt::format("{} is folded in plan: {} of {} triangles face down, triangle {} at {} first; only "
+                                   "meshes with one height at each place can be blended",
+                                   name, down, mesh.triangles.size(), first_down + 1,
+                                   place(mesh.vertices[mesh.triangles[first_down][0]])));
     }
     for (auto& t : mesh.triangles) {
         std::swap(t[1], t[2]);
@@ -475,7 +475,7 @@ Tin facing_up(Tin mesh, std::string const& name) {
 
 std::vector<std::uint32_t> outline_of(Tin const& mesh, std::string const& name, Run const& run) {
     std::map<std::uint32_t, std::uint32_t> const next = boundary(mesh, name);
-    refuse_if<BadInput>(next.empty(), "blend.outline_of: {} has no triangles", name);
+    refuse_if<BadInput>(next.empty(), "blend.outline_of", "{} has no triangles", name);
     std::vector<std::uint32_t> ring;
     std::uint32_t v = next.begin()->first;
     do {
@@ -488,8 +488,9 @@ std::vector<std::uint32_t> outline_of(Tin const& mesh, std::string const& name, 
         auto const other = std::find_if(next.begin(), next.end(), [&](auto const& e) {
             return !std::binary_search(sorted.begin(), sorted.end(), e.first);
         });
-        throw BadInput(fmt::format("blend.outline_of: {} has several boundaries, one through {} and one through {}; "
-                                   "close its holes, and give one part at a time",
+        throw BadInput("blend.outline_of",
+                       fmt::format("{} has several boundaries, one through {} and one through {}; close its holes, and "
+                                   "give one part at a time",
                                    name, place(mesh.vertices[ring.front()]), place(mesh.vertices[other->first])));
     }
     require_simple(mesh, ring, name, run);
@@ -499,8 +500,8 @@ std::vector<std::uint32_t> outline_of(Tin const& mesh, std::string const& name, 
 CutTin cut_tin(Tin const& target, std::vector<Vec2> const& outline, Run const& run) {
     SplitTriangles const parted = part(target, outline);
     if (parted.near.empty()) {
-        throw BadInput(
-            fmt::format("blend.cut_tin: the patch at ({}, {}) lies off the target", outline.at(0).x, outline.at(0).y));
+        throw BadInput("blend.cut_tin",
+                       fmt::format("the patch at ({}, {}) lies off the target", outline.at(0).x, outline.at(0).y));
     }
     Overlay const overlay = overlay_of(target, parted.near, outline, run);
     std::vector<Where> const where = sides_of(overlay);

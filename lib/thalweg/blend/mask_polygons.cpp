@@ -16,13 +16,14 @@ namespace {
 
 void check(Polygon const& polygon, std::string const& name) {
     for (auto const& ring : polygon.rings) {
-        refuse_if<BadInput>(ring.size() < 3,
-                            "blend.mask_polygons: feature {} of {} has a ring of {} vertices; remove it",
-                            polygon.feature, name, ring.size());
+        refuse_if<BadInput>(ring.size() < 3, "blend.mask_polygons",
+                            "feature {} of {} has a ring of {} vertices; remove it", polygon.feature, name,
+                            ring.size());
         for (std::size_t i = 0; i < ring.size(); ++i) {
             if (!is_finite(ring[i])) {
-                throw BadInput(fmt::format("blend.mask_polygons: vertex {} of feature {} of {} is not finite: ({}, {})",
-                                           i + 1, polygon.feature, name, ring[i].x, ring[i].y));
+                throw BadInput("blend.mask_polygons",
+                               fmt::format("vertex {} of feature {} of {} is not finite: ({}, {})", i + 1,
+                                           polygon.feature, name, ring[i].x, ring[i].y));
             }
         }
     }
@@ -86,11 +87,12 @@ private:
             }
         }
     }
-    throw BadInput(fmt::format("blend.mask_polygons: the {} polygons of {} lie between ({:.3f}, {:.3f}) and ({:.3f}, "
-                               "{:.3f}) and hold the centre of no cell of the target, which reaches from ({:.3f}, "
-                               "{:.3f}) to ({:.3f}, {:.3f})",
-                               polygons.polygons.size(), polygons.name, west, south, east, north, grid.west,
-                               grid.south(), grid.east(), grid.north));
+    throw BadInput(
+        "blend.mask_polygons",
+        fmt::format("the {} polygons of {} lie between ({:.3f}, {:.3f}) and ({:.3f}, {:.3f}) and hold the centre of no "
+                    "cell of the target, which reaches from ({:.3f}, {:.3f}) to ({:.3f}, {:.3f})",
+                    polygons.polygons.size(), polygons.name, west, south, east, north, grid.west, grid.south(),
+                    grid.east(), grid.north));
 }
 
 /// Sets the cells in each polygon to the value of its number, counted from 1; others to 0.

@@ -163,19 +163,19 @@ void check(PlacePatchParams const& params) {
     require_in("blend.place_patch", "scale", params.scale, Range::above(0.0));
     require_in("blend.place_patch", "gain", params.gain, Range::finite());
     if (params.at && (!std::isfinite(params.at->x) || !std::isfinite(params.at->y))) {
-        throw BadParameter(
-            fmt::format("blend.place_patch: a patch at ({}, {}); give finite coordinates", params.at->x, params.at->y));
+        throw BadParameter("blend.place_patch",
+                           fmt::format("a patch at ({}, {}); give finite coordinates", params.at->x, params.at->y));
     }
 }
 
 SourceWindow window_of(Raster<float> const& source, PlacePatchParams const& params) {
     SourceWindow const w = params.window.value_or(SourceWindow{0, 0, source.width(), source.height()});
-    refuse_if<BadInput>(w.col < 0 || w.row < 0 || w.width < 1 || w.height < 1 || w.width > source.width() ||
-                            w.height > source.height() || w.col > source.width() - w.width ||
-                            w.row > source.height() - w.height,
-                        "blend.place_patch: a window of {} x {} cells at column {}, row {} of a source of {} x {} "
-                        "cells; it lies within the source",
-                        w.width, w.height, w.col, w.row, source.width(), source.height());
+    refuse_if<BadInput>(
+        w.col < 0 || w.row < 0 || w.width < 1 || w.height < 1 || w.width > source.width() ||
+            w.height > source.height() || w.col > source.width() - w.width || w.row > source.height() - w.height,
+        "blend.place_patch",
+        "a window of {} x {} cells at column {}, row {} of a source of {} x {} cells; it lies within the source",
+        w.width, w.height, w.col, w.row, source.width(), source.height());
     return w;
 }
 
@@ -210,13 +210,15 @@ Span span_of(Placement const& placement, Grid const& target) {
 [[noreturn]] void refuse_empty(Placement const& placement, SourceWindow const& window, Grid const& target,
                                bool has_part) {
     auto const corners = placement.corners();
-    throw BadInput(fmt::format(
-        "blend.place_patch: the patch of {} x {} source cells with its corners at ({:.3f}, {:.3f}), ({:.3f}, {:.3f}), "
-        "({:.3f}, {:.3f}) and ({:.3f}, {:.3f}) covers no cell{} of the target, which reaches from ({:.3f}, {:.3f}) to "
-        "({:.3f}, {:.3f}), that has all its neighbours on the source: move it or take a larger one",
-        window.width, window.height, corners[0].x, corners[0].y, corners[1].x, corners[1].y, corners[2].x, corners[2].y,
-        corners[3].x, corners[3].y, has_part ? " of the mask" : "", target.west, target.south(), target.east(),
-        target.north));
+    throw BadInput(
+        "blend.place_patch",
+        fmt::format(
+            "the patch of {} x {} source cells with its corners at ({:.3f}, {:.3f}), ({:.3f}, {:.3f}), ({:.3f}, "
+            "{:.3f}) and ({:.3f}, {:.3f}) covers no cell{} of the target, which reaches from ({:.3f}, {:.3f}) to "
+            "({:.3f}, {:.3f}), that has all its neighbours on the source: move it or take a larger one",
+            window.width, window.height, corners[0].x, corners[0].y, corners[1].x, corners[1].y, corners[2].x,
+            corners[2].y, corners[3].x, corners[3].y, has_part ? " of the mask" : "", target.west, target.south(),
+            target.east(), target.north));
 }
 
 using solver::fixed_cell;
@@ -226,11 +228,11 @@ using solver::outside_cell;
 void check(Raster<float> const& target, Patch const& patch, PasteParams const& params) {
     require_in("blend.paste", "feather", params.feather_cells, Range::between(0.0, 1e6), "cells");
     auto const require = [&](Grid const& grid, char const* what) {
-        refuse_if<BadInput>(grid != target.grid(),
-                            "blend.paste: {} of {} x {} cells from ({}, {}) for a target of {} x {} cells from ({}, "
-                            "{}): they share a grid",
-                            what, grid.width, grid.height, grid.west, grid.north, target.width(), target.height(),
-                            target.grid().west, target.grid().north);
+        refuse_if<BadInput>(
+            grid != target.grid(), "blend.paste",
+            "{} of {} x {} cells from ({}, {}) for a target of {} x {} cells from ({}, {}): they share a grid", what,
+            grid.width, grid.height, grid.west, grid.north, target.width(), target.height(), target.grid().west,
+            target.grid().north);
     };
     require(patch.mask.grid(), "a mask");
     require(patch.z.grid(), "a patch");
@@ -248,8 +250,8 @@ Mask changes_of(Patch const& patch, PasteParams const& params, PastedDem& pasted
         }
         if (std::isinf(patch.z[i])) {
             Cell const c = changes.grid().at(i);
-            throw BadInput(
-                fmt::format("blend.paste: the patch's height at column {}, row {} is infinite", c.col, c.row));
+            throw BadInput("blend.paste",
+                           fmt::format("the patch's height at column {}, row {} is infinite", c.col, c.row));
         }
         bool const kept = params.keep.cells() > 0 && params.keep[i] != 0;
         bool const hole = std::isnan(patch.z[i]);
@@ -399,11 +401,11 @@ Patch place_patch(Raster<float> const& source, Grid const& target, PlacePatchPar
     SourceWindow const window = window_of(source, params);
     bool const has_part = params.part.cells() > 0;
     if (has_part) {
-        require_same_grid(params.part.grid(), target, "blend.place_patch: the mask and the target",
+        require_same_grid(params.part.grid(), target, "blend.place_patch", "the mask and the target",
                           "they share a grid");
     }
     std::int64_t const wanted = has_part ? count(params.part, run) : 0;
-    refuse_if<BadInput>(has_part && wanted == 0, "blend.place_patch: the mask holds no cell of the target");
+    refuse_if<BadInput>(has_part && wanted == 0, "blend.place_patch", "the mask holds no cell of the target");
     Placement const placement(source, window, params);
     Patch patch{Mask(target), Raster<double>(target, not_a_number)};
     Span const span = span_of(placement, target);

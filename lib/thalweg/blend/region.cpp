@@ -42,8 +42,8 @@ Box box_of(Mask const& changes, std::string const& stage) {
         box.first = {std::min(box.first.col, first - cells.begin()), std::min(box.first.row, row)};
         box.last = {std::max(box.last.col, cells.rend() - last - 1), row};
     }
-    refuse_if<BadInput>(box.last.row < 0,
-                        "{}: no cell of the target would change: take a mask that holds cells with heights", stage);
+    refuse_if<BadInput>(box.last.row < 0, stage,
+                        "no cell of the target would change: take a mask that holds cells with heights");
     return {{std::max<std::int64_t>(box.first.col - 1, 0), std::max<std::int64_t>(box.first.row - 1, 0)},
             {std::min(box.last.col + 1, changes.width() - 1), std::min(box.last.row + 1, changes.height() - 1)}};
 }
@@ -89,16 +89,15 @@ void require_held(EditRegion const& edit_region, Grid const& target, std::string
         if (held) {
             continue;
         }
-        refuse_if<BadInput>(
-            cells == target.cells(),
-            "{}: all {} x {} cells of the target would change: leave at least one that keeps its height", stage,
-            target.width, target.height);
+        refuse_if<BadInput>(cells == target.cells(), stage,
+                            "all {} x {} cells of the target would change: leave at least one that keeps its height",
+                            target.width, target.height);
         Cell const c = grid.at(start);
         Cell const there{c.col + edit_region.corner.col, c.row + edit_region.corner.row};
         Vec2 const p = target.centre(there);
-        throw BadInput(fmt::format("{}: the part of {} cells at column {}, row {} ({:.3f}, {:.3f}) has no neighbour "
-                                   "with a height to join: take a part that reaches one",
-                                   stage, cells, there.col, there.row, p.x, p.y));
+        throw BadInput(stage, fmt::format("the part of {} cells at column {}, row {} ({:.3f}, {:.3f}) has no neighbour "
+                                          "with a height to join: take a part that reaches one",
+                                          cells, there.col, there.row, p.x, p.y));
     }
 }
 
@@ -256,9 +255,8 @@ EditRegion edit_region_of(Raster<float> const& target, Mask const& changes, Mask
         if (!is_given && (!is_beside || std::isnan(target[there]))) {
             continue;
         }
-        refuse_if<BadInput>(!is_given && std::isinf(target[there]),
-                            "{}: the target's height at column {}, row {} is infinite: correct it", stage, there.col,
-                            there.row);
+        refuse_if<BadInput>(!is_given && std::isinf(target[there]), stage,
+                            "the target's height at column {}, row {} is infinite: correct it", there.col, there.row);
         edit_region.kind[i] = fixed_cell;
         ++edit_region.neighbours;
     }

@@ -32,25 +32,24 @@ Vec3 seen(Vec3 const& p, Measured measured) {
 constexpr std::uint32_t no_unknown = std::numeric_limits<std::uint32_t>::max();
 
 void check(Tin const& parameter, std::vector<CoordinateGradients> const& guidance) {
-    refuse_if<BadInput>(guidance.size() != parameter.triangles.size(),
-                        "blend.paste_tin: guidance for {} triangles, the mesh has {}", guidance.size(),
-                        parameter.triangles.size());
+    refuse_if<BadInput>(guidance.size() != parameter.triangles.size(), "blend.paste_tin",
+                        "guidance for {} triangles, the mesh has {}", guidance.size(), parameter.triangles.size());
     for (std::size_t i = 0; i < guidance.size(); ++i) {
         refuse_if<BadInput>(!is_finite(guidance[i].x) || !is_finite(guidance[i].y) || !is_finite(guidance[i].z),
-                            "blend.paste_tin: the guidance of triangle {} is not finite", i + 1);
+                            "blend.paste_tin", "the guidance of triangle {} is not finite", i + 1);
     }
 }
 
 std::vector<std::optional<Vec3>> places_of(Tin const& parameter, std::vector<FixedVertex> const& fixed) {
     std::vector<std::optional<Vec3>> places(parameter.vertices.size());
     for (FixedVertex const& f : fixed) {
-        refuse_if<BadInput>(f.vertex >= places.size() || !is_finite(f.at),
-                            "blend.paste_tin: vertex {} of {} is fixed at ({}, {}, {})", f.vertex + 1, places.size(),
-                            f.at.x, f.at.y, f.at.z);
+        refuse_if<BadInput>(f.vertex >= places.size() || !is_finite(f.at), "blend.paste_tin",
+                            "vertex {} of {} is fixed at ({}, {}, {})", f.vertex + 1, places.size(), f.at.x, f.at.y,
+                            f.at.z);
         auto& place = places[f.vertex];
         if (place && *place != f.at) {
-            throw BadInput(fmt::format("blend.paste_tin: vertex {} is fixed at ({}, {}, {}) and at ({}, {}, {}): give "
-                                       "one of them",
+            throw BadInput("blend.paste_tin",
+                           fmt::format("vertex {} is fixed at ({}, {}, {}) and at ({}, {}, {}): give one of them",
                                        f.vertex + 1, place->x, place->y, place->z, f.at.x, f.at.y, f.at.z));
         }
         place = f.at;
@@ -82,9 +81,10 @@ void require_held(Tin const& parameter, std::vector<std::optional<Vec3>> const& 
     for (auto const& t : parameter.triangles) {
         if (held[find(t[0])] == 0) {
             Vec3 const& p = parameter.vertices[t[0]];
-            throw BadInput(fmt::format("blend.paste_tin: the part of the mesh with vertex {} at ({}, {}, {}) has no "
-                                       "fixed vertex: fix one",
-                                       t[0] + 1, p.x, p.y, p.z));
+            throw BadInput(
+                "blend.paste_tin",
+                fmt::format("the part of the mesh with vertex {} at ({}, {}, {}) has no fixed vertex: fix one",
+                            t[0] + 1, p.x, p.y, p.z));
         }
     }
 }
@@ -177,7 +177,7 @@ LinearMap rotation(Vec3 axis, double angle_deg, double scale) {
     double const axis_length = norm(axis);
     refuse_if<BadParameter>(
         !(axis_length > 0.0) || !std::isfinite(axis_length) || !(std::fabs(angle_deg) <= 1e6) || !std::isfinite(scale),
-        "blend.rotation: {} degrees about ({}, {}, {}) with a scale of {}", angle_deg, axis.x, axis.y, axis.z, scale);
+        "blend.rotation", "{} degrees about ({}, {}, {}) with a scale of {}", angle_deg, axis.x, axis.y, axis.z, scale);
     Vec3 const u = (1.0 / axis_length) * axis;
     double const c = portable::cos(angle_deg * (portable::pi / 180.0));
     double const s = portable::sin(angle_deg * (portable::pi / 180.0));
@@ -201,9 +201,8 @@ std::array<Vec3, 3> hat_gradients_by_area(Vec3 const& a, Vec3 const& b, Vec3 con
 
 std::vector<CoordinateGradients> gradients_of(Tin const& parameter, std::vector<Vec3> const& places,
                                               Measured measured) {
-    refuse_if<BadInput>(places.size() != parameter.vertices.size(),
-                        "blend.gradients_of: {} places for a mesh of {} vertices", places.size(),
-                        parameter.vertices.size());
+    refuse_if<BadInput>(places.size() != parameter.vertices.size(), "blend.gradients_of",
+                        "{} places for a mesh of {} vertices", places.size(), parameter.vertices.size());
     geometry::half_cotangents(parameter, measured); // throws for a triangle without area
     std::vector<CoordinateGradients> gradients;
     gradients.reserve(parameter.triangles.size());

@@ -32,25 +32,22 @@ Mask read_kept(std::string const& path, Grid const& grid, Run const& run) {
     if (content.kind == io::FileContent::Kind::raster) {
         return io::read_mask(content.path, grid, run);
     }
-    refuse_if<BadInput>(
-        content.kind != io::FileContent::Kind::lines,
-        "commands.run_blend: {} holds points: cells to keep come from lines or a raster on the target's grid",
-        content.path);
+    refuse_if<BadInput>(content.kind != io::FileContent::Kind::lines, "commands.run_blend",
+                        "{} holds points: cells to keep come from lines or a raster on the target's grid",
+                        content.path);
     RiverLines const rivers = io::read_rivers({content.path, content.layer, "rosgen", {}, grid.crs}, run);
-    io::same_crs(rivers.crs, grid.crs, "commands.run_blend: " + content.path, "the target");
+    io::same_crs(rivers.crs, grid.crs, content.path, "the target");
     Mask kept = recipe::cells_under(network::clip_lines(rivers, grid), grid, content.path);
-    refuse_if<BadInput>(std::ranges::find(kept.values(), 1) == kept.values().end(),
-                        "commands.run_blend: no line of {} crosses the target, which reaches from ({:.3f}, {:.3f}) to "
-                        "({:.3f}, {:.3f})",
+    refuse_if<BadInput>(std::ranges::find(kept.values(), 1) == kept.values().end(), "commands.run_blend",
+                        "no line of {} crosses the target, which reaches from ({:.3f}, {:.3f}) to ({:.3f}, {:.3f})",
                         content.path, grid.west, grid.south(), grid.east(), grid.north);
     return kept;
 }
 
 make::BlendedDem blend_dems(BlendParams const& params, Run const& run) {
     refuse_if<BadParameter>(
-        !params.source_crs.empty(),
-        "commands.run_blend: --source-crs is for meshes (.2dm, .obj, .off, .glb); assign a DEM its CRS "
-        "by gdal_edit.py -a_srs");
+        !params.source_crs.empty(), "commands.run_blend",
+        "--source-crs is for meshes (.2dm, .obj, .off, .glb); assign a DEM its CRS by gdal_edit.py -a_srs");
     make::BlendIntoParams const& patch = params.patch;
     io::require_geotiff_name(params.output);
     io::OutputFile file(params.output, params.existing);
@@ -89,10 +86,8 @@ MeshBox box_of(Tin const& tin) {
 void check_mesh_params(make::BlendIntoParams const& params) {
     for (std::string const& path : {params.target, params.source.path}) {
         refuse_if<BadParameter>(
-            !io::holds_tin(path),
-            "commands.run_blend: {} is not a mesh (.2dm, .obj, .off, .glb), the other file is; `thalweg "
-            "tin` makes a mesh of a DEM",
-            path);
+            !io::holds_tin(path), "commands.run_blend",
+            "{} is not a mesh (.2dm, .obj, .off, .glb), the other file is; `thalweg tin` makes a mesh of a DEM", path);
     }
     for (auto const& [name, given] :
          {std::pair{"--window", params.window.has_value()}, std::pair{"--mask", !params.mask.path.empty()},
@@ -100,18 +95,18 @@ void check_mesh_params(make::BlendIntoParams const& params) {
           std::pair{"--mixed", params.relief == blend::Relief::mixed},
           std::pair{"--fill-holes", params.holes == blend::Holes::fill},
           std::pair{"--nodata, --band or --encoding", params.reading != io::ReadDemParams{}}}) {
-        refuse_if<BadParameter>(given, "commands.run_blend: {} is for DEMs: a mesh is pasted whole, inside its outline",
-                                name);
+        refuse_if<BadParameter>(given, "commands.run_blend",
+                                "{} is for DEMs: a mesh is pasted whole, inside its outline", name);
     }
-    refuse_if<BadParameter>(!(params.scale > 0.0 && std::isfinite(params.scale)),
-                            "commands.run_blend: a scale of {}; it must be greater than 0", params.scale);
-    refuse_if<BadParameter>(!std::isfinite(params.gain), "commands.run_blend: a gain of {}; it must be finite",
+    refuse_if<BadParameter>(!(params.scale > 0.0 && std::isfinite(params.scale)), "commands.run_blend",
+                            "a scale of {}; it must be greater than 0", params.scale);
+    refuse_if<BadParameter>(!std::isfinite(params.gain), "commands.run_blend", "a gain of {}; it must be finite",
                             params.gain);
-    refuse_if<BadParameter>(!(std::fabs(params.rotate_deg) <= 360.0),
-                            "commands.run_blend: a rotation of {} degrees; it lies in [-360, 360]", params.rotate_deg);
+    refuse_if<BadParameter>(!(std::fabs(params.rotate_deg) <= 360.0), "commands.run_blend",
+                            "a rotation of {} degrees; it lies in [-360, 360]", params.rotate_deg);
     if (params.at && !(std::isfinite(params.at->x) && std::isfinite(params.at->y))) {
-        throw BadParameter(
-            fmt::format("commands.run_blend: a place of ({}, {}) is not finite", params.at->x, params.at->y));
+        throw BadParameter("commands.run_blend",
+                           fmt::format("a place of ({}, {}) is not finite", params.at->x, params.at->y));
     }
 }
 
@@ -147,11 +142,10 @@ BlendedTin blend_meshes(BlendParams const& asked, Run const& run) {
             *crs = io::projected_crs(asked.source_crs);
         }
     }
-    refuse_if<BadInput>(
-        !target.crs.empty() && !patch.crs.empty() &&
-            !io::same_crs(patch.crs, target.crs, "commands.run_blend: " + params.source.path, params.target),
-        "commands.run_blend: {} is in {}, {} in {}; write both meshes in one CRS (thalweg tin --crs)",
-        params.source.path, patch.crs, params.target, target.crs);
+    refuse_if<BadInput>(!target.crs.empty() && !patch.crs.empty() &&
+                            !io::same_crs(patch.crs, target.crs, params.source.path, params.target),
+                        "commands.run_blend", "{} is in {}, {} in {}; write both meshes in one CRS (thalweg tin --crs)",
+                        params.source.path, patch.crs, params.target, target.crs);
     MeshBox const around_target = box_of(target.tin);
     MeshBox const around_patch = box_of(patch.tin);
     BlendedTin made;

@@ -76,9 +76,9 @@ measure::Certificate certify_files(NetworkFile const& network, CheckParams const
     Raster<float> const land = io::read_stored_dem(dem, params.reading, run); // the unit does not change the flow
     if (!io::same_crs(network.crs, land.grid().crs, "the network", dem)) {
         std::string const lines = network.crs.substr(0, 60);
-        throw BadInput(fmt::format("commands.run_check: the network is in {}, {} in {}; reproject one of them "
-                                   "(ogr2ogr -t_srs, gdalwarp -novshift -t_srs {} {} OUT.tif)",
-                                   lines, dem, land.grid().crs.substr(0, 60), lines, dem));
+        throw BadInput("commands.run_check", fmt::format("the network is in {}, {} in {}; reproject one of them "
+                                                         "(ogr2ogr -t_srs, gdalwarp -novshift -t_srs {} {} OUT.tif)",
+                                                         lines, dem, land.grid().crs.substr(0, 60), lines, dem));
     }
     make::FileReaches const found = make::reaches_of_file(network, land.grid());
     measure::Claims claims;
@@ -121,8 +121,8 @@ public:
                 }
             }
         } else {
-            throw BadParameter(fmt::format("commands.run_check: {} {}: it must end in {}", option, path,
-                                           may_be_shapefile ? ".gpkg or .shp" : ".gpkg"));
+            throw BadParameter("commands.run_check", fmt::format("{} {}: it must end in {}", option, path,
+                                                                 may_be_shapefile ? ".gpkg or .shp" : ".gpkg"));
         }
         refuse_present(option, params);
     }
@@ -156,12 +156,13 @@ private:
                                   fs::equivalent(folder_, input.parent_path() / ".", error) &&
                                   stem_of(file) == stem_of(input);
             if (fs::equivalent(file, input, error) || in_input || of_input) {
-                throw BadParameter(fmt::format("commands.run_check: {} {}: the input is not touched; name another file",
-                                               option, file.string()));
+                throw BadParameter(
+                    "commands.run_check",
+                    fmt::format("{} {}: the input is not touched; name another file", option, file.string()));
             }
             if (params.existing == io::Existing::refuse) {
-                throw BadInput(fmt::format("commands.run_check: {} {}: it exists; --overwrite replaces it", option,
-                                           file.string()));
+                throw BadInput("commands.run_check",
+                               fmt::format("{} {}: it exists; --overwrite replaces it", option, file.string()));
             }
             present_.push_back(name);
         }
@@ -321,8 +322,7 @@ CheckResult run_check(CheckParams const& params, Run const& run) {
 
     if (fix) {
         StageLog stage_log(run);
-        Raster<float> const dem =
-            recipe::read_dem_in(params.dem, network.crs, "commands.run_check: --dem", params.reading, stage_log, run);
+        Raster<float> const dem = recipe::read_dem_in(params.dem, network.crs, "--dem", params.reading, stage_log, run);
         append(checked.notes, stage_log.take_findings());
         RepairedNetwork const mended =
             repair_network(network, topology, {params.near_m, dem.cells() > 0 ? &dem : nullptr, params.main}, run);

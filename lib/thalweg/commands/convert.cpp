@@ -67,10 +67,9 @@ Raster<float> read_dem(ConvertParams const& params, std::string const& crs, std:
     io::DemFile read = io::read_dem_file(params.dem, params.reading, run);
     append(findings, read.findings);
     Raster<float> dem = std::move(read.dem);
-    refuse_if<BadInput>(
-        !io::same_crs(dem.grid().crs, crs, "commands.run_convert: " + params.dem, params.path),
-        "commands.run_convert: {} is in {:.60}, {} in {:.60}: warp it (gdalwarp -novshift -t_srs {:.60})", params.dem,
-        dem.grid().crs, params.path, crs, crs);
+    refuse_if<BadInput>(!io::same_crs(dem.grid().crs, crs, params.dem, params.path), "commands.run_convert",
+                        "{} is in {:.60}, {} in {:.60}: warp it (gdalwarp -novshift -t_srs {:.60})", params.dem,
+                        dem.grid().crs, params.path, crs, crs);
     return dem;
 }
 
@@ -127,7 +126,8 @@ Grid grid_of(StreamNetwork const& plan, ConvertParams const& params, Raster<floa
     if (dem != nullptr) {
         return dem->grid();
     }
-    refuse_if<BadParameter>(!(params.cell_m > 0.0), "commands.run_convert: a raster needs cells: give --dem or --cell");
+    refuse_if<BadParameter>(!(params.cell_m > 0.0), "commands.run_convert",
+                            "a raster needs cells: give --dem or --cell");
     RiverLines lines{{}, crs, params.path, false};
     for (ArcId arc = 0; arc < plan.arc_count(); ++arc) {
         RiverLine line;
@@ -177,8 +177,8 @@ bool may_be_read(fs::path const& file, fs::path const& source) {
 void require_other(std::vector<std::string> const& files, fs::path const& folder, std::string const& source) {
     for (std::string const& file : files) {
         if (may_be_read(folder / file, source)) {
-            throw BadInput(fmt::format("commands.run_convert: {} may be the input: name another output",
-                                       (folder / file).string()));
+            throw BadInput("commands.run_convert",
+                           fmt::format("{} may be the input: name another output", (folder / file).string()));
         }
     }
 }
@@ -188,18 +188,19 @@ public:
     explicit ConvertOutput(ConvertParams const& params) : params_(params), database_(io::is_postgis(params.output)) {
         std::string const& output = params.output;
         if (database_) {
-            refuse_if<BadInput>(
-                output == params.path && params.existing == io::Existing::replace,
-                "commands.run_convert: the output is the input database: name another table and leave out --overwrite");
+            refuse_if<BadInput>(output == params.path && params.existing == io::Existing::replace,
+                                "commands.run_convert",
+                                "the output is the input database: name another table and leave out --overwrite");
             return;
         }
         write_ = {io::network_format(params.format, output), params.schema, {}};
         fs::path const path(output);
         folder_ = path.has_parent_path() ? path.parent_path() : fs::path(".");
         std::error_code ignored;
-        refuse_if<BadParameter>(!path.has_filename(), "commands.run_convert: '{}' is not a valid file name", output);
+        refuse_if<BadParameter>(!path.has_filename(), "commands.run_convert", "'{}' is not a valid file name", output);
         if (!fs::is_directory(folder_, ignored)) {
-            throw BadInput(fmt::format("commands.run_convert: there is no folder {} for {}", folder_.string(), output));
+            throw BadInput("commands.run_convert",
+                           fmt::format("there is no folder {} for {}", folder_.string(), output));
         }
         files_ = io::network_files(output, write_);
         require_other(files_, folder_, params.path);

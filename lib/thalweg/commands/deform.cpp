@@ -22,18 +22,16 @@ namespace {
 
 DeformedDem deform_dem(DeformParams const& params, Run const& run) {
     refuse_if<BadParameter>(
-        params.rotate_deg != 0.0 || params.axis,
-        "commands.run_deform: --rotate and --axis turn meshes (.2dm, .obj, .off, .glb); a DEM has one "
-        "height a cell. `thalweg tin` makes a mesh of it, `thalweg blend --rotate` turns a patch "
-        "about the vertical");
+        params.rotate_deg != 0.0 || params.axis, "commands.run_deform",
+        "--rotate and --axis turn meshes (.2dm, .obj, .off, .glb); a DEM has one height a cell. `thalweg tin` makes a "
+        "mesh of it, `thalweg blend --rotate` turns a patch about the vertical");
     refuse_if<BadParameter>(
-        !params.source_crs.empty(),
-        "commands.run_deform: --source-crs is for meshes (.2dm, .obj, .off, .glb); assign a DEM its CRS "
-        "by gdal_edit.py -a_srs");
+        !params.source_crs.empty(), "commands.run_deform",
+        "--source-crs is for meshes (.2dm, .obj, .off, .glb); assign a DEM its CRS by gdal_edit.py -a_srs");
     io::require_geotiff_name(params.output);
     io::OutputFile file(params.output, params.existing);
-    refuse_if<BadParameter>(params.scale == 1.0 && params.handles.empty(),
-                            "commands.run_deform: nothing to do: give a scale or heights to pull to");
+    refuse_if<BadParameter>(params.scale == 1.0 && params.handles.empty(), "commands.run_deform",
+                            "nothing to do: give a scale or heights to pull to");
     io::DemFile const read = io::read_dem_file(params.target, params.reading, run);
     run.report(read.findings);
     Raster<float> const& target = read.dem;
@@ -42,9 +40,9 @@ DeformedDem deform_dem(DeformParams const& params, Run const& run) {
     std::vector<blend::Handle> handles;
     for (Vec3 const& h : params.handles) {
         Cell const cell = grid.cell_of({h.x, h.y});
-        refuse_if<BadInput>(!grid.contains(cell),
-                            "commands.run_deform: ({}, {}) lies outside {}, which reaches from ({}, {}) to ({}, {})",
-                            h.x, h.y, params.target, grid.west, grid.south(), grid.east(), grid.north);
+        refuse_if<BadInput>(!grid.contains(cell), "commands.run_deform",
+                            "({}, {}) lies outside {}, which reaches from ({}, {}) to ({}, {})", h.x, h.y,
+                            params.target, grid.west, grid.south(), grid.east(), grid.north);
         handles.push_back({cell, h.z});
     }
     run.at(0.0, "deform");
@@ -96,9 +94,9 @@ std::uint32_t nearest_inside(Tin const& tin, std::vector<char> const& inside, Ve
 /// The CRS of a mesh without one: its mask's, with a finding; "": neither has one.
 std::string crs_of_mask(DeformParams const& params, std::vector<Finding>& findings) {
     io::PolygonsCrs mask = io::crs_of_polygons(params.mask);
-    refuse_if<BadInput>(!mask.crs.empty() && !mask.in_metres,
-                        "commands.run_deform: {} is in {:.60}, {} has no CRS: name it (--source-crs EPSG:n)",
-                        params.mask, mask.crs, params.target);
+    refuse_if<BadInput>(!mask.crs.empty() && !mask.in_metres, "commands.run_deform",
+                        "{} is in {:.60}, {} has no CRS: name it (--source-crs EPSG:n)", params.mask, mask.crs,
+                        params.target);
     if (!mask.crs.empty()) {
         findings.push_back({.kind = "no_crs",
                             .text = fmt::format("{} has no CRS: it is taken to be in {:.60}, as {}", params.target,
@@ -109,14 +107,14 @@ std::string crs_of_mask(DeformParams const& params, std::vector<Finding>& findin
 }
 
 DeformedTin deform_mesh(DeformParams const& params, Run const& run) {
-    refuse_if<BadParameter>(params.reading != io::ReadDemParams{},
-                            "commands.run_deform: --nodata, --band and --encoding are for DEMs: a mesh has no cells");
+    refuse_if<BadParameter>(params.reading != io::ReadDemParams{}, "commands.run_deform",
+                            "--nodata, --band and --encoding are for DEMs: a mesh has no cells");
     Vec3 const axis = params.axis.value_or(Vec3{0.0, 0.0, 1.0});
-    refuse_if<BadParameter>(axis == Vec3{}, "commands.run_deform: --axis 0,0,0 has no direction");
+    refuse_if<BadParameter>(axis == Vec3{}, "commands.run_deform", "--axis 0,0,0 has no direction");
     io::TinFormat const format = io::tin_format("", params.output);
     io::OutputFile output(params.output, params.existing);
     refuse_if<BadParameter>(params.scale == 1.0 && params.rotate_deg == 0.0 && params.handles.empty(),
-                            "commands.run_deform: nothing to do: give a scale, a rotation or heights to pull to");
+                            "commands.run_deform", "nothing to do: give a scale, a rotation or heights to pull to");
     io::TinFile file = io::read_tin(params.target, run);
     if (file.crs.empty()) {
         file.crs =
@@ -128,7 +126,7 @@ DeformedTin deform_mesh(DeformParams const& params, Run const& run) {
     DeformedTin made;
     made.findings = file.findings;
     made.vertices = std::count(inside.begin(), inside.end(), char{1});
-    refuse_if<BadInput>(made.vertices == 0, "commands.run_deform: no vertex of {} lies in {}", params.target,
+    refuse_if<BadInput>(made.vertices == 0, "commands.run_deform", "no vertex of {} lies in {}", params.target,
                         params.mask);
     bool const turns = params.rotate_deg != 0.0;
     auto const measured = turns ? geometry::Measured::on_surface : geometry::Measured::in_plan;

@@ -27,8 +27,8 @@ constexpr char const* page_ending = ".html";
 constexpr char const* ensemble_word = "ensemble";
 
 [[noreturn]] void unknown(char const* what, std::string const& word, std::vector<std::string> const& known) {
-    throw BadParameter(fmt::format("commands.run_draw: unknown {1} '{0}'; there are {2}.{3}", word, what,
-                                   fmt::join(known, ", "), did_you_mean(word, known)));
+    throw BadParameter("commands.run_draw", fmt::format("unknown {1} '{0}'; there are {2}.{3}", word, what,
+                                                        fmt::join(known, ", "), did_you_mean(word, known)));
 }
 
 report::PictureKind kind_of(std::string const& word) {
@@ -97,9 +97,9 @@ Order order_of(DrawParams const& params) {
         add_once(order.formats, format_of(word),
                  [](ensemble::NamedFormat const& a, ensemble::NamedFormat const& b) { return a.format == b.format; });
     }
-    refuse_if<BadParameter>(order.ensemble && (order.page || !order.kinds.empty()),
-                            "commands.run_draw: an ensemble is drawn by itself: leave out the other kinds");
-    refuse_if<BadParameter>(output.empty(), "commands.run_draw: the name of the output is empty");
+    refuse_if<BadParameter>(order.ensemble && (order.page || !order.kinds.empty()), "commands.run_draw",
+                            "an ensemble is drawn by itself: leave out the other kinds");
+    refuse_if<BadParameter>(output.empty(), "commands.run_draw", "the name of the output is empty");
     fs::path const path(output);
     std::string const ending = path.extension().string();
     bool const is_folder = fs::is_directory(path);
@@ -113,16 +113,15 @@ Order order_of(DrawParams const& params) {
         order.folder = path.has_parent_path() ? path.parent_path().string() : ".";
     }
     if (is_page) {
-        refuse_if<BadParameter>(!order.kinds.empty() || !order.formats.empty(),
-                                "commands.run_draw: {} is the name of a page: name a folder for pictures", output);
+        refuse_if<BadParameter>(!order.kinds.empty() || !order.formats.empty(), "commands.run_draw",
+                                "{} is the name of a page: name a folder for pictures", output);
         order.page = true;
     } else if (is_picture) {
         ensemble::NamedFormat const own = format_of(ending.substr(1));
         bool const other = std::any_of(order.formats.begin(), order.formats.end(),
                                        [&](ensemble::NamedFormat const& f) { return f.format != own.format; });
-        refuse_if<BadParameter>(
-            order.kinds.size() > 1 || other || order.page,
-            "commands.run_draw: {} is the name of one picture in one format: name a folder for several", output);
+        refuse_if<BadParameter>(order.kinds.size() > 1 || other || order.page, "commands.run_draw",
+                                "{} is the name of one picture in one format: name a folder for several", output);
         if (order.kinds.empty() && !order.ensemble) {
             order.kinds = {report::PictureKind::map};
         }
@@ -144,7 +143,7 @@ std::vector<Task> tasks_of(Order const& order, report::Scene const& scene) {
             continue;
         }
         if (!missing.empty()) {
-            throw BadInput(fmt::format("commands.run_draw: no {} can be drawn: {}", name_of(kind), missing));
+            throw BadInput("commands.run_draw", fmt::format("no {} can be drawn: {}", name_of(kind), missing));
         }
         for (ensemble::NamedFormat const& format : order.formats) {
             tasks.push_back({kind, format.format,
@@ -179,8 +178,9 @@ std::string command_for_ensemble(DrawParams const& params) {
 DrawResult draw_members(DrawParams const& params, Order const& order, Run const& run) {
     refuse_if<BadParameter>(!params.network.empty() || params.reading != io::ReadDemParams{} ||
                                 params.look.azimuth_deg || params.look.elevation_deg || params.look.exaggeration,
-                            "commands.run_draw: an ensemble has no network, no-data value or viewing direction: leave "
-                            "out --network, --nodata, --azimuth, --elevation and --exaggeration");
+                            "commands.run_draw",
+                            "an ensemble has no network, no-data value or viewing direction: leave out --network, "
+                            "--nodata, --azimuth, --elevation and --exaggeration");
     ensemble::DrawnEnsemble drawn = ensemble::draw_ensemble({.source = params.source,
                                                              .title = params.title,
                                                              .look = params.look,

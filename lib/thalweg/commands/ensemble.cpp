@@ -51,15 +51,16 @@ void require_ranges(EnsembleParams const& params) {
     constexpr std::int64_t most_members = 1'000'000'000;
     constexpr std::int64_t most_in_a_shard = 1'000'000;
     constexpr std::int64_t most_shares = 1'000'000;
-    refuse_if<BadParameter>(params.members < 1 || params.members > most_members,
+    refuse_if<BadParameter>(params.members < 1 || params.members > most_members, "commands.run_ensemble",
                             "an ensemble has 1 to {} members, not {}", most_members, params.members);
     refuse_if<BadParameter>(params.members_a_shard < 0 || params.members_a_shard > most_in_a_shard,
-                            "--shards {}: a tar file holds 1 to {} members", params.members_a_shard, most_in_a_shard);
-    refuse_if<BadParameter>(params.shares < 1 || params.shares > most_shares || params.share < 1 ||
-                                params.share > params.shares,
-                            "--share {}/{}: write K/N, K from 1 to N", params.share, params.shares);
+                            "commands.run_ensemble", "--shards {}: a tar file holds 1 to {} members",
+                            params.members_a_shard, most_in_a_shard);
     refuse_if<BadParameter>(
-        params.existing == io::Existing::replace,
+        params.shares < 1 || params.shares > most_shares || params.share < 1 || params.share > params.shares,
+        "commands.run_ensemble", "--share {}/{}: write K/N, K from 1 to N", params.share, params.shares);
+    refuse_if<BadParameter>(
+        params.existing == io::Existing::replace, "commands.run_ensemble",
         "--overwrite does not go with an ensemble: it goes on where it stopped. To begin anew, name "
         "another folder or remove {}",
         params.output);
@@ -91,12 +92,12 @@ ensemble::EnsembleOrder ensemble_asked(EnsembleParams const& params) {
     ensemble.members = params.members;
     constexpr auto greatest = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
     refuse_if<BadParameter>(ensemble.recipe.seed > greatest - static_cast<std::uint64_t>(params.members),
-                            "the last member's seed would be above {}", greatest);
+                            "commands.run_ensemble", "the last member's seed would be above {}", greatest);
     for (std::string const& text : params.vary) {
         ensemble::VariedKey vary = ensemble::read_varied_key(text);
         refuse_if<BadParameter>(
             std::ranges::any_of(ensemble.vary, [&](ensemble::VariedKey const& v) { return v.key == vary.key; }),
-            "--vary {}: the key varies twice", text);
+            "commands.run_ensemble", "--vary {}: the key varies twice", text);
         ensemble.vary.push_back(std::move(vary));
     }
     recipe::OutputRecipe& output = ensemble.recipe.output;
@@ -111,6 +112,7 @@ ensemble::EnsembleOrder ensemble_asked(EnsembleParams const& params) {
                                                                        return file != recipe::OutputFiles::dem &&
                                                                               file != recipe::OutputFiles::network;
                                                                    })),
+                            "commands.run_ensemble",
                             "--shards: a tar file holds dem and network of each member, no other files");
     require_possible(ensemble);
     return asked;

@@ -40,8 +40,8 @@ draw::Format format_of_picture(std::string const& path) {
             return format;
         }
     }
-    throw BadParameter(
-        fmt::format("commands.run_grow: '{}' is not a picture: end its name in .svg, .png or .pdf", path));
+    throw BadParameter("commands.run_grow",
+                       fmt::format("'{}' is not a picture: end its name in .svg, .png or .pdf", path));
 }
 
 GrowResult rewritten(GrowParams const& params, Run const& run) {
@@ -67,7 +67,8 @@ GrowResult run_grow(GrowParams const& params, Run const& run) {
     if (!params.rules.empty()) {
         return rewritten(params, run);
     }
-    refuse_if<BadParameter>(!params.output.empty(), "commands.run_grow: -o draws the word of --rules FILE: give both");
+    refuse_if<BadParameter>(!params.output.empty(), "commands.run_grow",
+                            "-o draws the word of --rules FILE: give both");
     if (params.word) {
         growth::TokunagaParams tree = params.tree;
         tree.banks = growth::BankRule::alternating; // the rules define the sides

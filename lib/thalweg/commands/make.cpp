@@ -52,7 +52,7 @@ recipe::Recipe with_options(recipe::Recipe recipe, MakeParams const& params) {
     for (auto const& [quantity, name] : params.fields) {
         auto const key = keys.find(quantity);
         refuse_if<BadParameter>(
-            key == keys.end(),
+            key == keys.end(), "commands.run_make",
             "--field {}={}: make reads arc_id, ds_arc, from_node, to_node, direction, key (a rank that "
             "falls downstream) and type from fields that are named",
             quantity, name);
@@ -62,8 +62,9 @@ recipe::Recipe with_options(recipe::Recipe recipe, MakeParams const& params) {
 }
 
 recipe::Recipe recipe_to_rebuild(RebuildFromParams const& params) {
-    refuse_if<BadParameter>(params.input.empty(), "commands.run_rebuild: name the rivers: any file of lines with "
-                                                  "heights that GDAL reads, or a folder written by make or convert");
+    refuse_if<BadParameter>(
+        params.input.empty(), "commands.run_rebuild",
+        "name the rivers: any file of lines with heights that GDAL reads, or a folder written by make or convert");
     recipe::Recipe recipe = recipe::recipe_from(params.input);
     for (auto const& [key, file] : {std::pair{"surface.like", &params.like}, {"output.against", &params.against}}) {
         if (!file->empty()) {
@@ -105,8 +106,8 @@ recipe::Forecast forecast_rebuild(RebuildFromParams const& params, Run const& ru
 }
 
 recipe::Recipe recipe_for(std::string const& rivers, std::string const& source_crs, Run const& run) {
-    refuse_if<BadInput>(!is_utf8(std::filesystem::absolute(rivers).string()),
-                        "commands.recipe_for: the path of {} is not UTF-8, and recipes are: rename it", rivers);
+    refuse_if<BadInput>(!is_utf8(std::filesystem::absolute(rivers).string()), "commands.recipe_for",
+                        "the path of {} is not UTF-8, and recipes are: rename it", rivers);
     recipe::Recipe recipe = recipe::data_recipe(rivers);
     if (!source_crs.empty()) {
         recipe::set_key(recipe, "network.lines.source_crs=" + source_crs);

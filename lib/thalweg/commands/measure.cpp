@@ -84,8 +84,9 @@ std::set<std::string> wanted_of(MeasureParams const& params, MeasuredInput const
         if (word == "all") {
             wanted.insert(known.begin(), known.end());
         } else if (std::ranges::find(known, word) == known.end()) {
-            throw BadParameter(fmt::format("commands.run_measure: unknown measure '{}'; the measures are {} and all.{}",
-                                           word, fmt::join(known, ", "), did_you_mean(word, known)));
+            throw BadParameter("commands.run_measure",
+                               fmt::format("unknown measure '{}'; the measures are {} and all.{}", word,
+                                           fmt::join(known, ", "), did_you_mean(word, known)));
         } else {
             wanted.insert(word);
         }
@@ -97,8 +98,8 @@ std::set<std::string> wanted_of(MeasureParams const& params, MeasuredInput const
     if (source.network.empty() && (params.what.empty() || names_all)) {
         wanted.erase("catchments");
     }
-    refuse_if<BadInput>(wanted.contains("catchments") && source.network.empty(),
-                        "commands.run_measure: catchments need rivers: name a network after the DEM");
+    refuse_if<BadInput>(wanted.contains("catchments") && source.network.empty(), "commands.run_measure",
+                        "catchments need rivers: name a network after the DEM");
     return wanted;
 }
 
@@ -320,9 +321,8 @@ NetworkFile read_arcs(MeasuredInput const& source, io::ReadNetworkParams how, Ra
     how.crs = dem.grid().crs;
     how.any_lines = true;
     NetworkFile file = io::read_network(source.network, how, run);
-    refuse_if<BadInput>(!file.crs.empty() && dem.grid().crs.empty(),
-                        "commands.run_measure: {} has no CRS, {} is in {:.60}: give the DEM its CRS first "
-                        "(gdal_translate -a_srs)",
+    refuse_if<BadInput>(!file.crs.empty() && dem.grid().crs.empty(), "commands.run_measure",
+                        "{} has no CRS, {} is in {:.60}: give the DEM its CRS first (gdal_translate -a_srs)",
                         source.dem, source.network, file.crs);
     append(findings, file.findings);
     if (file.id_shift != 0) {

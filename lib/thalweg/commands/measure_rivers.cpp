@@ -166,9 +166,9 @@ std::vector<Vec3> with_heights(std::vector<Vec2> const& line, Raster<double> con
 
 NetworkFile joined_lines(NetworkFile const& file, Raster<float> const& dem, std::vector<Finding>& findings,
                          Run const& run) {
-    refuse_if<BadInput>(file.arcs.empty(), "commands.run_measure: the network holds no lines");
+    refuse_if<BadInput>(file.arcs.empty(), "commands.run_measure", "the network holds no lines");
     RepairedNetwork const mended = repair_network(file, measure::check_topology(file, {}, run), {.dem = &dem}, run);
-    refuse_if<BadInput>(!mended.done, "commands.run_measure: the lines make no tree of rivers: {}",
+    refuse_if<BadInput>(!mended.done, "commands.run_measure", "the lines make no tree of rivers: {}",
                         mended.mended.empty() ? std::string("thalweg check tells why") : mended.mended.back().text);
     append(findings, mended.doubts);
     for (Finding const& change : mended.mended) {
@@ -237,8 +237,8 @@ RiverMeasures measure_rivers(MeasuredRiver const& rivers, Raster<float> const& d
         found.counts.theta = *params.theta;
     } else {
         auto const fitted = measure::fit_theta(found.profiles, run);
-        refuse_if<BadInput>(!fitted, "commands.run_measure: no river falls, so that no concavity index can be fitted; "
-                                     "set theta or a smaller support");
+        refuse_if<BadInput>(!fitted, "commands.run_measure",
+                            "no river falls, so that no concavity index can be fitted; set theta or a smaller support");
         found.counts.theta = fitted->theta;
         found.counts.theta_r2 = fitted->r2;
     }

@@ -55,9 +55,8 @@ PointsResult run_points(PointsParams const& params, Run const& run) {
     io::OutputFile file(params.output, params.existing);
     std::error_code ignored;
     bool const is_folder = fs::is_directory(params.path, ignored);
-    refuse_if<BadParameter>(params.of == PointsOf::skeleton && !is_folder,
-                            "commands.run_points: --skeleton needs a folder written by make; {} is not one",
-                            params.path);
+    refuse_if<BadParameter>(params.of == PointsOf::skeleton && !is_folder, "commands.run_points",
+                            "--skeleton needs a folder written by make; {} is not one", params.path);
     fs::path const folder(params.path);
     io::DemFile read = io::read_dem_file(is_folder ? (folder / "dem.tif").string() : params.path, params.reading, run);
     run.report(read.findings);

@@ -42,7 +42,7 @@ StatsResult stats_of_lines(StatsParams const& params, Run const& run) {
     read.bridge = true;
     NetworkFile const file = io::read_network(params.path, read, run);
     RepairedNetwork const mended = repair_network(file, measure::check_topology(file, {}, run), {}, run);
-    refuse_if<BadInput>(!mended.done, "commands.run_stats: {} makes no tree of rivers: {}", params.path,
+    refuse_if<BadInput>(!mended.done, "commands.run_stats", "{} makes no tree of rivers: {}", params.path,
                         mended.mended.empty() ? std::string("thalweg check tells why") : mended.mended.back().text);
     StatsResult found;
     found.findings = file.findings;
@@ -63,10 +63,9 @@ StatsResult stats_of_lines(StatsParams const& params, Run const& run) {
 
 StatsResult run_stats(StatsParams const& params, Run const& run) {
     if (holds_lines(params.path)) {
-        refuse_if<BadParameter>(!params.laws || params.relief || params.recipe,
-                                "commands.run_stats: {} holds lines, whose laws alone are measured: give --laws, "
-                                "without --relief and --recipe",
-                                params.path);
+        refuse_if<BadParameter>(
+            !params.laws || params.relief || params.recipe, "commands.run_stats",
+            "{} holds lines, whose laws alone are measured: give --laws, without --relief and --recipe", params.path);
         return stats_of_lines(params, run);
     }
     constexpr std::int64_t any_side = 1000000;

@@ -73,7 +73,7 @@ Breaklines read_lines(std::string const& path, TinParams const& params, std::str
                       Run const& run) {
     bool const has_rings = are == LinesAre::more && !std::filesystem::is_directory(path) && io::holds_polygons(path);
     io::FileContent const content = has_rings ? io::FileContent{Kind::lines, path, ""} : io::content_of(path);
-    refuse_if<BadInput>(content.kind != Kind::lines, "commands.run_tin: {} holds no lines", path);
+    refuse_if<BadInput>(content.kind != Kind::lines, "commands.run_tin", "{} holds no lines", path);
     bool const has_column = are == LinesAre::all && !params.height_column.empty();
     RiverLines rivers = io::read_rivers({.path = content.path,
                                          .layer = content.layer,
@@ -82,9 +82,9 @@ Breaklines read_lines(std::string const& path, TinParams const& params, std::str
                                          .rings = has_rings,
                                          .source_crs = params.source_crs},
                                         run);
-    refuse_if<BadInput>(!have_any_heights(rivers, are),
-                        "commands.run_tin: the lines of {} have no heights (or all the same): a TIN takes lines with "
-                        "Z, such as layer arcs of a network.gpkg{}",
+    refuse_if<BadInput>(!have_any_heights(rivers, are), "commands.run_tin",
+                        "the lines of {} have no heights (or all the same): a TIN takes lines with Z, such as layer "
+                        "arcs of a network.gpkg{}",
                         content.path, are == LinesAre::all ? offered_columns(rivers.attributes) : "");
     Breaklines read{{}, rivers.crs};
     network::WithoutPlaceholders checked = network::without_placeholders(std::move(rivers));
@@ -164,7 +164,8 @@ void refuse_options_of_points(TinParams const& params, io::FileContent const& co
                                             std::tuple{"--classes", "point clouds", !params.classes.empty()},
                                             std::tuple{"--thin", "point clouds", params.thin_m.has_value()}}) {
         if (given) {
-            throw BadParameter(fmt::format("commands.run_tin: {} applies to {}; {} holds {}", option, to, content.path,
+            throw BadParameter("commands.run_tin",
+                               fmt::format("{} applies to {}; {} holds {}", option, to, content.path,
                                            content.kind == Kind::raster ? "a DEM" : "lines"));
         }
     }
@@ -174,11 +175,11 @@ TinResult tin_of(TinParams const& params, Run const& run) {
     io::FileContent const content = io::content_of(params.path);
     refuse_options_of_points(params, content);
     if (content.kind == Kind::raster) {
-        refuse_if<BadParameter>(
-            !params.breaklines.empty() || !params.crs.empty() || !params.source_crs.empty() ||
-                !params.height_column.empty() || params.medial_points,
-            "commands.run_tin: --breaklines, --height-column, --medial-points, --crs and --source-crs apply to points "
-            "and lines, not to a DEM");
+        refuse_if<BadParameter>(!params.breaklines.empty() || !params.crs.empty() || !params.source_crs.empty() ||
+                                    !params.height_column.empty() || params.medial_points,
+                                "commands.run_tin",
+                                "--breaklines, --height-column, --medial-points, --crs and --source-crs apply to "
+                                "points and lines, not to a DEM");
         return of_dem(content.path, params, run);
     }
     for (auto const& [option, given] :
@@ -186,14 +187,15 @@ TinResult tin_of(TinParams const& params, Run const& run) {
           std::pair{"--band or --encoding",
                     !params.reading.band.empty() || params.reading.encoding != io::HeightEncoding::none}}) {
         if (given) {
-            throw BadParameter(fmt::format("commands.run_tin: {} applies to a DEM only; {} holds {}", option,
-                                           content.path, content.kind == Kind::points ? "points" : "lines"));
+            throw BadParameter("commands.run_tin",
+                               fmt::format("{} applies to a DEM only; {} holds {}", option, content.path,
+                                           content.kind == Kind::points ? "points" : "lines"));
         }
     }
-    refuse_if<BadParameter>(params.medial_points && content.kind == Kind::points,
-                            "commands.run_tin: --medial-points applies to contours; {} holds points", content.path);
-    refuse_if<BadParameter>(params.reading.nodata && content.kind == Kind::lines,
-                            "commands.run_tin: --nodata applies to a DEM or points; {} holds lines", content.path);
+    refuse_if<BadParameter>(params.medial_points && content.kind == Kind::points, "commands.run_tin",
+                            "--medial-points applies to contours; {} holds points", content.path);
+    refuse_if<BadParameter>(params.reading.nodata && content.kind == Kind::lines, "commands.run_tin",
+                            "--nodata applies to a DEM or points; {} holds lines", content.path);
     if (content.kind == Kind::points) {
         FeaturePoints const points =
             io::read_points({.path = content.path,

@@ -17,8 +17,9 @@ std::vector<Cell> cells_of_vertices(std::vector<Vec2> const& line, Grid const& g
         bool const within =
             line[i].x >= grid.west && line[i].x <= grid.east() && line[i].y <= grid.north && line[i].y >= grid.south();
         if (!within || !grid.contains(grid.cell_of(line[i]))) {
-            throw BadInput(fmt::format("core.cells_along: vertex {} of {} at ({:.3f}, {:.3f}) lies outside the grid "
-                                       "(x {:.3f} to {:.3f}, y {:.3f} to {:.3f}); enlarge the grid or clip the rivers",
+            throw BadInput("core.cells_along",
+                           fmt::format("vertex {} of {} at ({:.3f}, {:.3f}) lies outside the grid (x {:.3f} to {:.3f}, "
+                                       "y {:.3f} to {:.3f}); enlarge the grid or clip the rivers",
                                        i, what, line[i].x, line[i].y, grid.west, grid.east(), grid.south(),
                                        grid.north));
         }
@@ -121,7 +122,7 @@ void search_row(Raster<std::int64_t>& nearest, std::int64_t row, std::vector<Sit
 Raster<std::int64_t> nearest_cells(Mask const& marked, Run const& run) {
     bool const any = std::any_of(marked.values().begin(), marked.values().end(), [](std::uint8_t m) { return m != 0; });
     if (!any) {
-        throw BadInput("core.nearest_cells: no cell is marked");
+        throw BadInput("core.nearest_cells", "no cell is marked");
     }
     Raster<std::int64_t> nearest(marked.grid());
     parallel_ranges(run, marked.width(), 64, [&](std::int64_t first, std::int64_t last) {

@@ -13,7 +13,7 @@ namespace thalweg {
 
 FindingKind FindingKind::named(std::string_view kind) {
     FindingRow const* const row = find(kind);
-    refuse_if<BadParameter>(row == nullptr, "core.FindingKind: unknown kind of finding '{}'", kind);
+    refuse_if<BadParameter>(row == nullptr, "core.FindingKind", "unknown kind of finding '{}'", kind);
     return FindingKind(row);
 }
 

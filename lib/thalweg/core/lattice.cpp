@@ -126,7 +126,7 @@ float vertex_height(Raster<float> const& dem, Taps const& column, Taps const& ro
 class LatticeFrame {
 public:
     LatticeFrame(Lattice const& of, double exaggeration) : of_(of), exaggeration_(exaggeration) {
-        require_in("core.lattice_mesh", "exaggeration", exaggeration, Range::above(0.0));
+        require_in("core.surface_mesh", "exaggeration", exaggeration, Range::above(0.0));
         double low = std::numeric_limits<double>::infinity();
         for (float const z : of.z.values()) {
             low = std::isnan(z) ? low : std::min(low, static_cast<double>(z));
@@ -197,9 +197,8 @@ Lattice lattice(Raster<float> const& dem, std::int64_t width, std::int64_t heigh
     constexpr double most = 16385.0;
     require_in("core.lattice", "width", width, Range::between(2.0, most), "vertices");
     require_in("core.lattice", "height", height, Range::between(2.0, most), "vertices");
-    refuse_if<BadInput>(dem.width() < 2 || dem.height() < 2,
-                        "core.lattice: the DEM has {} x {} cells: a mesh needs at least 2 x 2", dem.width(),
-                        dem.height());
+    refuse_if<BadInput>(dem.width() < 2 || dem.height() < 2, "core.lattice",
+                        "the DEM has {} x {} cells: a mesh needs at least 2 x 2", dem.width(), dem.height());
     Grid grid = dem.grid();
     Vec2 const first = grid.centre({0, 0});
     double const cell_m = grid.cell_m;
@@ -250,7 +249,7 @@ LatticeMesh surface_mesh(Lattice const& lattice, double exaggeration, Run const&
                                    static_cast<double>(c.row) / static_cast<double>(z.height() - 1)});
         }
     }
-    refuse_if<BadInput>(mesh.vertices.empty(), "core.surface_mesh: no three vertices side by side have heights");
+    refuse_if<BadInput>(mesh.vertices.empty(), "core.surface_mesh", "no three vertices side by side have heights");
     for_triangles(z, run, [&](Corners const& corners) {
         auto const of = [&](std::size_t k) { return number[static_cast<std::size_t>(corners[k])]; };
         mesh.triangles.push_back({of(0), of(1), of(2)});
@@ -295,9 +294,9 @@ LatticeMesh solid_mesh(Lattice const& lattice, double base_m, double exaggeratio
     for (std::int64_t i = 0; i < z.cells(); ++i) {
         if (!std::isfinite(z[i])) {
             Cell const c = z.grid().at(i);
-            refuse_if<BadInput>(true,
-                                "core.solid_mesh: the vertex at column {}, row {} has no height: a solid has none "
-                                "missing; fill the DEM's holes first (gdal_fillnodata.py)",
+            refuse_if<BadInput>(true, "core.solid_mesh",
+                                "the vertex at column {}, row {} has no height: a solid has none missing; fill the "
+                                "DEM's holes first (gdal_fillnodata.py)",
                                 c.col, c.row);
         }
     }

@@ -28,9 +28,11 @@ std::string difference(Grid const& one, Grid const& other) {
 
 } // namespace
 
-void require_same_grid(Grid const& one, Grid const& other, std::string_view what, std::string_view remedy) {
+void require_same_grid(Grid const& one, Grid const& other, std::string_view where, std::string_view what,
+                       std::string_view remedy) {
     if (one != other) {
-        throw BadInput(fmt::format("{} have different grids: {}; {}", what, difference(one, other), remedy));
+        throw BadInput(std::string(where),
+                       fmt::format("{} have different grids: {}; {}", what, difference(one, other), remedy));
     }
 }
 

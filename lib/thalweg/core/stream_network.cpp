@@ -13,9 +13,8 @@ namespace {
 void require_nodes(NetworkDraft const& draft) {
     for (std::size_t a = 0; a < draft.arcs.size(); ++a) {
         NodeId const last = std::max(draft.arcs[a].from, draft.arcs[a].to);
-        refuse_if<BadInput>(last >= draft.nodes.size(),
-                            "core.StreamNetwork: arc {} ends at node {} of {}; add the node first", a + 1, last + 1,
-                            draft.nodes.size());
+        refuse_if<BadInput>(last >= draft.nodes.size(), "core.StreamNetwork",
+                            "arc {} ends at node {} of {}; add the node first", a + 1, last + 1, draft.nodes.size());
     }
 }
 

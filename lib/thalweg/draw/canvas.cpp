@@ -84,8 +84,8 @@ cairo_status_t encode_png(cairo_surface_t* sheet, std::string* bytes) {
 
 void require(cairo_status_t status) {
     if (status != CAIRO_STATUS_SUCCESS) {
-        throw IoError(fmt::format("draw.paint: Cairo says '{}'; choose a smaller picture or free memory",
-                                  cairo_status_to_string(status)));
+        throw IoError("draw.paint", fmt::format("Cairo says '{}'; choose a smaller picture or free memory",
+                                                cairo_status_to_string(status)));
     }
 }
 
@@ -98,7 +98,7 @@ void load_fonts() {
         if (fonts != nullptr) {
             FcConfigDestroy(fonts); // the current one has its own reference
         }
-        refuse_if<IoError>(!is_current, "draw.paint: the system's fonts cannot be read: out of memory");
+        refuse_if<IoError>(!is_current, "draw.paint", "the system's fonts cannot be read: out of memory");
         return true;
     }();
 }

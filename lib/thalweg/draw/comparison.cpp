@@ -36,8 +36,8 @@ void require_sheet(ComparisonSheet const& sheet, char const* who) {
     auto const is_other = [&](Grid const& other) { return other.width != grid.width || other.height != grid.height; };
     refuse_if<BadInput>(grid.cells() < 1 || is_other(sheet.shade_of_dem.grid()) || is_other(sheet.shade.grid()) ||
                             is_other(sheet.divides_of_dem.grid()) || is_other(sheet.divides.grid()),
-                        "draw.{}: the rasters of a sheet of {}x{} cells differ in size or have no cells", who,
-                        grid.width, grid.height);
+                        who, "the rasters of a sheet of {}x{} cells differ in size or have no cells", grid.width,
+                        grid.height);
 }
 
 /// Pixels that stand for squares of cells.
@@ -178,7 +178,7 @@ double limit_of_differences(Raster<float> const& difference) {
 
 Picture differences(ComparisonSheet const& sheet, ComparisonParams const& params) {
     require_in("draw.differences", "width_px", params.width_px, Range::between(200, 8000), "pixels");
-    require_sheet(sheet, "differences");
+    require_sheet(sheet, "draw.differences");
     Grid const& grid = sheet.difference.grid();
     std::int64_t const block = block_for(grid, params.width_px);
     Relief const relief = difference_relief(sheet, block);
@@ -192,7 +192,7 @@ Picture differences(ComparisonSheet const& sheet, ComparisonParams const& params
 
 Picture comparison(ComparisonSheet const& sheet, ComparisonParams const& params) {
     require_in("draw.comparison", "width_px", params.width_px, Range::between(200, 8000), "pixels");
-    require_sheet(sheet, "comparison");
+    require_sheet(sheet, "draw.comparison");
     Grid const& grid = sheet.difference.grid();
     double const width = params.width_px;
     double const unit = 0.0085 * width;

@@ -87,9 +87,8 @@ Picture contact_sheet(std::vector<Thumbnail> const& thumbnails, ContactSheetPara
     double const top = ((params.title.empty() ? 0.0 : 3.6) + (params.note.empty() ? 0.0 : 2.0) + 1.6) * unit;
     std::size_t const rows = (thumbnails.size() + columns - 1) / columns;
     double const height = std::ceil(top + std::max(static_cast<double>(rows) * row, 4.0 * unit));
-    refuse_if<BadInput>(height > tallest_px,
-                        "draw.contact_sheet: {} thumbnails make a picture of {:.0f} pixels in height, more than 32000: "
-                        "draw fewer",
+    refuse_if<BadInput>(height > tallest_px, "draw.contact_sheet",
+                        "{} thumbnails make a picture of {:.0f} pixels in height, more than 32000: draw fewer",
                         thumbnails.size(), height);
     return paint(width, height, params.format, [&](Cairo* canvas) {
         double y = 0.0;

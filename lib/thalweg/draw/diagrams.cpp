@@ -71,15 +71,15 @@ void require_profile(ElevatedNetwork const& network, NetworkOrders const& orders
         network.arc_z.size() != arcs || orders.hack.size() != arcs || orders.arc_basin.size() != arcs ||
             orders.strahler.size() != arcs || orders.node_dist_out_m.size() != network.planform.node_count() ||
             std::any_of(orders.main_stem.begin(), orders.main_stem.end(), [arcs](ArcId arc) { return arc >= arcs; }),
-        "draw.profile: heights or orders are not those of the network of {} arcs; set heights and orders again", arcs);
+        "draw.profile", "heights or orders are not those of the network of {} arcs; set heights and orders again",
+        arcs);
 }
 
 Reach reach_of(ElevatedNetwork const& network, NetworkOrders const& orders, ArcId arc) {
     std::vector<Vec2> const& line = network.planform.arc(arc).line;
     std::vector<double> const& z = network.arc_z[arc];
-    refuse_if<BadInput>(z.size() != line.size(),
-                        "draw.profile: arc {} has {} vertices and {} heights; set heights again", arc + 1, line.size(),
-                        z.size());
+    refuse_if<BadInput>(z.size() != line.size(), "draw.profile",
+                        "arc {} has {} vertices and {} heights; set heights again", arc + 1, line.size(), z.size());
     if (orders.arc_basin[arc] < 1) { // it reaches no outlet
         return {};
     }
@@ -87,9 +87,8 @@ Reach reach_of(ElevatedNetwork const& network, NetworkOrders const& orders, ArcI
     double to_outlet = orders.node_dist_out_m[network.planform.to(arc)];
     for (std::size_t i = line.size(); i-- > 0;) {
         to_outlet += i + 1 < line.size() ? distance(line[i], line[i + 1]) : 0.0;
-        refuse_if<BadInput>(!std::isfinite(to_outlet) || !std::isfinite(z[i]),
-                            "draw.profile: arc {}, vertex {}: place or height is not a number; mend the network",
-                            arc + 1, i);
+        refuse_if<BadInput>(!std::isfinite(to_outlet) || !std::isfinite(z[i]), "draw.profile",
+                            "arc {}, vertex {}: place or height is not a number; mend the network", arc + 1, i);
         reach[i] = {to_outlet, z[i]};
     }
     return reach;
@@ -204,13 +203,13 @@ constexpr Colour ground_colour{0.72, 0.56, 0.38, 0.22};
 void require_curve(std::vector<Vec2> const& curve, double integral) {
     for (std::size_t i = 0; i < curve.size(); ++i) {
         if (!(curve[i].x >= 0.0 && curve[i].x <= 1.0) || !std::isfinite(curve[i].y)) {
-            throw BadInput(fmt::format(
-                "draw.hypsometry: point {} is ({}, {}): a share of the area in [0, 1] and a height are required", i + 1,
-                curve[i].x, curve[i].y));
+            throw BadInput("draw.hypsometry",
+                           fmt::format("point {} is ({}, {}): a share of the area in [0, 1] and a height are required",
+                                       i + 1, curve[i].x, curve[i].y));
         }
     }
     refuse_if<BadInput>(!curve.empty() && !std::isnan(integral) && !(integral >= 0.0 && integral <= 1.0),
-                        "draw.hypsometry: the integral is {}, must lie in [0, 1]", integral);
+                        "draw.hypsometry", "the integral is {}, must lie in [0, 1]", integral);
 }
 
 /// A dashed line at the mean height: the integral is its position between the lowest and the highest.
@@ -240,8 +239,9 @@ Picture curve(std::vector<double> const& increments, CurveParams const& params) 
         double const x = static_cast<double>(i + 1);
         sum += increments[i];
         if (!std::isfinite(sum)) {
-            throw BadInput(fmt::format("draw.curve: the increment at x = {} is {}, not finite; correct its expression",
-                                       i + 1, increments[i]));
+            throw BadInput(
+                "draw.curve",
+                fmt::format("the increment at x = {} is {}, not finite; correct its expression", i + 1, increments[i]));
         }
         if (i == 0) {
             sums.push_back({0.0, 0.0});

@@ -32,12 +32,12 @@ constexpr std::size_t most_marks = 500; // dots of a response, of evenly chosen 
 void require_indices(std::vector<Distribution> const& indices, char const* who) {
     for (Distribution const& index : indices) {
         for (double const value : index.values) {
-            refuse_if<BadInput>(std::isinf(value), "draw.{}: a value of {} is infinite; mark unknown ones as NaN", who,
+            refuse_if<BadInput>(std::isinf(value), who, "a value of {} is infinite; mark unknown ones as NaN",
                                 index.name);
         }
         refuse_if<BadInput>(index.low.has_value() != index.high.has_value() ||
                                 (index.low && !(*index.low <= *index.high && std::isfinite(*index.high - *index.low))),
-                            "draw.{}: the natural range of {} needs two finite ends, the lower first", who, index.name);
+                            who, "the natural range of {} needs two finite ends, the lower first", index.name);
     }
 }
 
@@ -412,10 +412,9 @@ Picture sheet_of_panels(std::vector<Distribution> const& indices, DistributionsP
                         double high, char const* line, DrawPanel const& draw_panel) {
     IndexSheet const sheet = panel_places(indices, params.width_px, high, !params.title.empty(), !params.note.empty());
     refuse_if<BadInput>(
-        sheet.height > most_px,
-        "draw.{}: {} indices make a picture of {:.0f} pixels in height, more than 32000: draw fewer, or "
-        "a narrower picture",
-        who, indices.size(), sheet.height);
+        sheet.height > most_px, who,
+        "{} indices make a picture of {:.0f} pixels in height, more than 32000: draw fewer, or a narrower picture",
+        indices.size(), sheet.height);
     return paint(params.width_px, sheet.height, params.format, [&](Cairo* canvas) {
         draw_title(canvas, sheet, params.title, params.note);
         double const y = ((params.title.empty() ? 0.0 : 2.6) + (params.note.empty() ? 0.0 : 1.8) + 2.1) * sheet.unit;
@@ -631,31 +630,31 @@ DistributionCounts counts_of(Distribution const& index) {
 
 Picture distributions(std::vector<Distribution> const& indices, DistributionsParams const& params) {
     require_in("draw.distributions", "width_px", params.width_px, Range::between(200, 8000), "pixels");
-    require_indices(indices, "distributions");
+    require_indices(indices, "draw.distributions");
     constexpr double high = 13.6;
-    return sheet_of_panels(indices, params, "distributions", high, "median", draw_distribution);
+    return sheet_of_panels(indices, params, "draw.distributions", high, "median", draw_distribution);
 }
 
 Picture responses(Distribution const& parameter, std::vector<Distribution> const& indices,
                   ResponsesParams const& params) {
     require_in("draw.responses", "width_px", params.width_px, Range::between(200, 8000), "pixels");
-    require_indices({parameter}, "responses");
-    require_indices(indices, "responses");
+    require_indices({parameter}, "draw.responses");
+    require_indices(indices, "draw.responses");
     for (Distribution const& index : indices) {
-        refuse_if<BadInput>(index.values.size() != parameter.values.size(),
-                            "draw.responses: {} has {} values and {} has {}: one for each member is required",
-                            index.name, index.values.size(), parameter.name, parameter.values.size());
+        refuse_if<BadInput>(index.values.size() != parameter.values.size(), "draw.responses",
+                            "{} has {} values and {} has {}: one for each member is required", index.name,
+                            index.values.size(), parameter.name, parameter.values.size());
     }
     for (double const value : parameter.values) {
         refuse_if<BadInput>(
             !params.words.empty() && !std::isnan(value) &&
                 !(value >= 0.0 && value < static_cast<double>(params.words.size()) && value == std::floor(value)),
-            "draw.responses: {} of {} is not the number of one of its {} words", value, parameter.name,
+            "draw.responses", "{} of {} is not the number of one of its {} words", value, parameter.name,
             params.words.size());
     }
     constexpr double high = 15.6;
     DistributionsParams const alike{params.title, params.note, params.width_px, params.format};
-    return sheet_of_panels(indices, alike, "responses", high, "medians",
+    return sheet_of_panels(indices, alike, "draw.responses", high, "medians",
                            [&](Cairo* canvas, Box panel, Distribution const& index, double unit) {
                                draw_response(canvas, panel, parameter, index, params.words, unit);
                            });

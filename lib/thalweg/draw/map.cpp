@@ -33,7 +33,7 @@ LinesBox box_of_lines(std::vector<std::vector<Vec2>> const& lines) {
     LinesBox all;
     for (auto const& line : lines) {
         for (Vec2 const p : line) {
-            refuse_if<BadInput>(!is_finite(p), "draw.lines: a line has a coordinate that is not finite");
+            refuse_if<BadInput>(!is_finite(p), "draw.lines", "a line has a coordinate that is not finite");
             all.low = {std::min(all.low.x, p.x), std::min(all.low.y, p.y)};
             all.high = {std::max(all.high.x, p.x), std::max(all.high.y, p.y)};
         }
@@ -288,8 +288,8 @@ void draw_rivers(Cairo* canvas, MapSheet const& sheet, Window const& window, dou
 
 void require_finite(std::vector<Vec2> const& line, char const* what, std::size_t number_of_line) {
     for (std::size_t i = 0; i < line.size(); ++i) {
-        refuse_if<BadInput>(!is_finite(line[i]), "draw.map: {} {}, vertex {} has no finite coordinates; mend the line",
-                            what, number_of_line, i);
+        refuse_if<BadInput>(!is_finite(line[i]), "draw.map",
+                            "{} {}, vertex {} has no finite coordinates; mend the line", what, number_of_line, i);
     }
 }
 
@@ -297,25 +297,25 @@ void require_sheet(MapSheet const& sheet, MapParams const& params) {
     require_in("draw.map", "width_px", params.width_px, Range::between(200, 8000), "pixels");
     require_in("draw.map", "contour_interval_m", params.contour_interval_m, Range::at_least(0.0));
     Grid const& grid = sheet.dem.grid();
-    refuse_if<BadInput>(grid.width < 1 || grid.height < 1,
-                        "draw.map: the DEM has {} x {} cells; draw one that has some", grid.width, grid.height);
-    refuse_if<BadInput>(!(grid.cell_m > 0.0) || !std::isfinite(grid.east()) || !std::isfinite(grid.south()),
-                        "draw.map: the grid's cell of {} m or its origin ({}, {}) is not usable; mend its georeference",
+    refuse_if<BadInput>(grid.width < 1 || grid.height < 1, "draw.map",
+                        "the DEM has {} x {} cells; draw one that has some", grid.width, grid.height);
+    refuse_if<BadInput>(!(grid.cell_m > 0.0) || !std::isfinite(grid.east()) || !std::isfinite(grid.south()), "draw.map",
+                        "the grid's cell of {} m or its origin ({}, {}) is not usable; mend its georeference",
                         grid.cell_m, grid.west, grid.north);
-    refuse_if<BadInput>(sheet.orders != nullptr && sheet.network == nullptr,
-                        "draw.map: orders without the network that they are of");
-    refuse_if<BadInput>(sheet.hillshade.width() != grid.width || sheet.hillshade.height() != grid.height,
-                        "draw.map: the hillshade has {} x {} cells, the DEM {} x {}; shade this DEM",
-                        sheet.hillshade.width(), sheet.hillshade.height(), grid.width, grid.height);
+    refuse_if<BadInput>(sheet.orders != nullptr && sheet.network == nullptr, "draw.map",
+                        "orders without the network that they are of");
+    refuse_if<BadInput>(sheet.hillshade.width() != grid.width || sheet.hillshade.height() != grid.height, "draw.map",
+                        "the hillshade has {} x {} cells, the DEM {} x {}; shade this DEM", sheet.hillshade.width(),
+                        sheet.hillshade.height(), grid.width, grid.height);
     if (has_lakes(sheet)) {
-        refuse_if<BadInput>(sheet.lakes->width() != grid.width || sheet.lakes->height() != grid.height,
-                            "draw.map: the lakes have {} x {} cells, the DEM {} x {}; give lakes of this DEM",
+        refuse_if<BadInput>(sheet.lakes->width() != grid.width || sheet.lakes->height() != grid.height, "draw.map",
+                            "the lakes have {} x {} cells, the DEM {} x {}; give lakes of this DEM",
                             sheet.lakes->width(), sheet.lakes->height(), grid.width, grid.height);
     }
     for (std::size_t i = 0; i < sheet.spot_heights.size(); ++i) {
         SpotHeight const& spot = sheet.spot_heights[i];
-        refuse_if<BadInput>(!is_finite(spot.at) || !std::isfinite(spot.z),
-                            "draw.map: spot height {} is not finite; mend it", i + 1);
+        refuse_if<BadInput>(!is_finite(spot.at) || !std::isfinite(spot.z), "draw.map",
+                            "spot height {} is not finite; mend it", i + 1);
     }
     for (std::size_t i = 0; i < sheet.contours.size(); ++i) {
         require_finite(sheet.contours[i].second, "contour", i);
@@ -330,11 +330,11 @@ void require_sheet(MapSheet const& sheet, MapParams const& params) {
     }
     std::size_t const arcs = sheet.network->planform.arc_count();
     if (sheet.orders == nullptr || sheet.orders->strahler.size() != arcs) {
-        throw BadInput(fmt::format("draw.map: a network of {} arcs comes with {} orders; order this network", arcs,
-                                   sheet.orders == nullptr ? 0 : sheet.orders->strahler.size()));
+        throw BadInput("draw.map", fmt::format("a network of {} arcs comes with {} orders; order this network", arcs,
+                                               sheet.orders == nullptr ? 0 : sheet.orders->strahler.size()));
     }
-    refuse_if<BadInput>(!sheet.areas_m2.empty() && sheet.areas_m2.size() != arcs,
-                        "draw.map: a network of {} arcs comes with {} areas; measure the areas of this network", arcs,
+    refuse_if<BadInput>(!sheet.areas_m2.empty() && sheet.areas_m2.size() != arcs, "draw.map",
+                        "a network of {} arcs comes with {} areas; measure the areas of this network", arcs,
                         sheet.areas_m2.size());
     for (ArcId a = 0; a < arcs; ++a) {
         require_finite(sheet.network->planform.arc(a).line, "arc", a + 1);
@@ -764,8 +764,8 @@ Picture ground(MapSheet const& sheet, GroundParams const& params) {
     refuse_if<BadInput>(
         grid.width < 2 || grid.height < 2 || grid.height - 1 > longest * (grid.width - 1) ||
             grid.width - 1 > longest * (grid.height - 1),
-        "draw.ground: the DEM has {} x {} cells: a texture needs 2 x 2, and sides not more than {} times "
-        "as long as one another",
+        "draw.ground",
+        "the DEM has {} x {} cells: a texture needs 2 x 2, and sides not more than {} times as long as one another",
         grid.width, grid.height, longest);
     double const px_per_cell = static_cast<double>(params.width_px) / static_cast<double>(grid.width - 1);
     double const height = std::max(1.0, std::floor(px_per_cell * static_cast<double>(grid.height - 1) + 0.5));

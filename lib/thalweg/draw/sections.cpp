@@ -279,7 +279,8 @@ void require_sections(ElevatedNetwork const* network, NetworkOrders const* order
     require_in("draw.sections", "width_px", params.width_px, Range::between(200, 8000), "pixels");
     require_in("draw.sections", "count", params.count, Range::between(1, 9));
     if (network != nullptr && (orders == nullptr || orders->strahler.size() != network->planform.arc_count())) {
-        throw BadInput(fmt::format("draw.sections: a network of {} arcs comes with {} orders; order this network",
+        throw BadInput("draw.sections",
+                       fmt::format("a network of {} arcs comes with {} orders; order this network",
                                    network->planform.arc_count(), orders == nullptr ? 0 : orders->strahler.size()));
     }
 }
@@ -396,9 +397,8 @@ double height_at(Raster<float> const& dem, Vec2 position) {
 std::vector<Section> cut_sections(Raster<float> const& dem, ElevatedNetwork const* network, NetworkOrders const* orders,
                                   int count) {
     Grid const& grid = dem.grid();
-    refuse_if<BadInput>(grid.width < 1 || grid.height < 1 || !(grid.cell_m > 0.0),
-                        "draw.cut_sections: a DEM of {} x {} cells of {} m; take one that has some", grid.width,
-                        grid.height, grid.cell_m);
+    refuse_if<BadInput>(grid.width < 1 || grid.height < 1 || !(grid.cell_m > 0.0), "draw.cut_sections",
+                        "a DEM of {} x {} cells of {} m; take one that has some", grid.width, grid.height, grid.cell_m);
     MainStem const stem = network == nullptr || orders == nullptr ? MainStem{} : main_stem(network->planform, *orders);
     if (stem.line.size() < 2 || !(stem.from_out_m.back() > 0.0)) {
         return through_the_middle(dem);

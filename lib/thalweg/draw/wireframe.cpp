@@ -312,13 +312,14 @@ void require_scene(WireframeScene const& scene, WireframeParams const& params) {
     require_in(stage, "lines", params.lines, Range::between(2, 200));
     Grid const& grid = scene.dem.grid();
     refuse_if<BadInput>(grid.width < 1 || grid.height < 1 || !(grid.cell_m > 0.0) || !std::isfinite(grid.cell_m),
-                        "draw.wireframe: a DEM of {} x {} cells of {} m; draw one that has some", grid.width,
+                        "draw.wireframe", "a DEM of {} x {} cells of {} m; draw one that has some", grid.width,
                         grid.height, grid.cell_m);
     if (scene.network != nullptr) {
         std::size_t const arcs = scene.network->planform.arc_count();
         if (scene.orders == nullptr || scene.orders->strahler.size() != arcs) {
-            throw BadInput(fmt::format("draw.wireframe: a network of {} arcs comes with {} orders; order this network",
-                                       arcs, scene.orders == nullptr ? 0 : scene.orders->strahler.size()));
+            throw BadInput("draw.wireframe",
+                           fmt::format("a network of {} arcs comes with {} orders; order this network", arcs,
+                                       scene.orders == nullptr ? 0 : scene.orders->strahler.size()));
         }
     }
 }

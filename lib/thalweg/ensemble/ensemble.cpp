@@ -141,28 +141,33 @@ void add_dem(Values& values, make::SurfaceMeasures const& measured) {
 VariedKey read_varied_key(std::string const& text) {
     constexpr char const* form = "write KEY=A..B for a number between A and B, or KEY=VALUE,VALUE for values in turn";
     std::size_t const equals = text.find('=');
-    refuse_if<BadParameter>(equals == std::string::npos || equals == 0, "--vary {}: {}", text, form);
+    refuse_if<BadParameter>(equals == std::string::npos || equals == 0, "ensemble.read_varied_key", "--vary {}: {}",
+                            text, form);
     VariedKey vary{.key = std::string(trimmed(std::string_view(text).substr(0, equals)))};
     std::string_view const value = trimmed(std::string_view(text).substr(equals + 1));
     recipe::Key const* const key = recipe::find_key(without_item(vary.key));
-    refuse_if<BadParameter>(key == nullptr, "--vary {}: {}", text, recipe::unknown_key(vary.key));
-    refuse_if<BadParameter>(vary.key == "seed", "--vary {}: every member has a seed of its own: use --seeds A-B", text);
-    refuse_if<BadParameter>(value.empty(), "--vary {}: {}", text, form);
+    refuse_if<BadParameter>(key == nullptr, "ensemble.read_varied_key", "--vary {}: {}", text,
+                            recipe::unknown_key(vary.key));
+    refuse_if<BadParameter>(vary.key == "seed", "ensemble.read_varied_key",
+                            "--vary {}: every member has a seed of its own: use --seeds A-B", text);
+    refuse_if<BadParameter>(value.empty(), "ensemble.read_varied_key", "--vary {}: {}", text, form);
     std::size_t const dots = value.find("..");
     auto const low = dots == std::string_view::npos ? std::nullopt : as_number(value.substr(0, dots));
     auto const high = dots == std::string_view::npos ? std::nullopt : as_number(value.substr(dots + 2));
     if (low && high) {
-        refuse_if<BadParameter>(!is_number(key->row->kind), "--vary {}: {} is not a number: list its values, {}=A,B",
-                                text, vary.key, vary.key);
-        refuse_if<BadParameter>(*low > *high, "--vary {}: {} is above {}", text, *low, *high);
+        refuse_if<BadParameter>(!is_number(key->row->kind), "ensemble.read_varied_key",
+                                "--vary {}: {} is not a number: list its values, {}=A,B", text, vary.key, vary.key);
+        refuse_if<BadParameter>(*low > *high, "ensemble.read_varied_key", "--vary {}: {} is above {}", text, *low,
+                                *high);
         vary.between = {*low, *high};
         vary.is_integer = key->row->kind != recipe::KeyKind::number;
         return vary;
     }
-    refuse_if<BadParameter>(dots != std::string_view::npos && is_number(key->row->kind),
+    refuse_if<BadParameter>(dots != std::string_view::npos && is_number(key->row->kind), "ensemble.read_varied_key",
                             "--vary {}: A and B in A..B are numbers", text);
     vary.values = listed(value);
-    refuse_if<BadParameter>(std::ranges::any_of(vary.values, &std::string::empty), "--vary {}: a value is empty", text);
+    refuse_if<BadParameter>(std::ranges::any_of(vary.values, &std::string::empty), "ensemble.read_varied_key",
+                            "--vary {}: a value is empty", text);
     return vary;
 }
 
@@ -181,7 +186,7 @@ recipe::Recipe recipe_of(Ensemble const& ensemble, Member const& member) {
         try {
             recipe::set_key(recipe, key, value);
         } catch (BadParameter const& fault) {
-            throw BadParameter(fmt::format("{} = {}: {}", key, value, fault.what()));
+            throw BadParameter(fault.where(), fmt::format("{} = {}: {}", key, value, fault.what()));
         }
     }
     return recipe;

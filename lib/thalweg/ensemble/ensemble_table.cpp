@@ -32,11 +32,9 @@ bool ends_field(std::string_view text, std::size_t at) {
 CsvField plain_field(std::string_view text, std::size_t at, std::string const& name, std::size_t line) {
     std::size_t end = at;
     while (!ends_field(text, end)) {
-        refuse_if<BadInput>(
-            text[end] == '"' || text[end] == '\r',
-            "ensemble.read_members_table: {}, line {}: {} inside a field without quotes; it is not a CSV "
-            "table by RFC 4180",
-            name, line, text[end] == '"' ? "a quote" : "a carriage return");
+        refuse_if<BadInput>(text[end] == '"' || text[end] == '\r', "ensemble.read_members_table",
+                            "{}, line {}: {} inside a field without quotes; it is not a CSV table by RFC 4180", name,
+                            line, text[end] == '"' ? "a quote" : "a carriage return");
         ++end;
     }
     return {std::string(text.substr(at, end - at)), end};
@@ -51,18 +49,17 @@ CsvField quoted_field(std::string_view text, std::size_t at, std::string const& 
             field.text += '"';
             ++i;
         } else {
-            refuse_if<BadInput>(!ends_field(text, i + 1),
-                                "ensemble.read_members_table: {}, line {}: text follows the closing quote of a field; "
-                                "it is not a CSV table by RFC 4180",
-                                name, line);
+            refuse_if<BadInput>(
+                !ends_field(text, i + 1), "ensemble.read_members_table",
+                "{}, line {}: text follows the closing quote of a field; it is not a CSV table by RFC 4180", name,
+                line);
             field.end = i + 1;
             return field;
         }
     }
-    refuse_if<BadInput>(true,
-                        "ensemble.read_members_table: {}, line {}: a quoted field has no end; the file is "
-                        "incomplete or not a CSV table",
-                        name, line);
+    refuse_if<BadInput>(true, "ensemble.read_members_table",
+                        "{}, line {}: a quoted field has no end; the file is incomplete or not a CSV table", name,
+                        line);
     return field;
 }
 
@@ -86,9 +83,8 @@ Columns columns_of(std::vector<std::string> const& header, std::string const& na
     std::optional<std::size_t> member;
     std::set<std::string> seen;
     for (std::size_t i = 0; i < header.size(); ++i) {
-        refuse_if<BadInput>(!seen.insert(header[i]).second,
-                            "ensemble.read_members_table: {} has two columns '{}'; rename or remove one", name,
-                            header[i]);
+        refuse_if<BadInput>(!seen.insert(header[i]).second, "ensemble.read_members_table",
+                            "{} has two columns '{}'; rename or remove one", name, header[i]);
         if (header[i] == "member") {
             member = i;
         } else if (header[i] == "seed") {
@@ -103,19 +99,16 @@ Columns columns_of(std::vector<std::string> const& header, std::string const& na
             columns.keys.push_back(i);
         }
     }
-    refuse_if<BadInput>(!member,
-                        "ensemble.read_members_table: {} has no column 'member'; name the table.csv that make "
-                        "--ensemble wrote",
-                        name);
+    refuse_if<BadInput>(!member, "ensemble.read_members_table",
+                        "{} has no column 'member'; name the table.csv that make --ensemble wrote", name);
     columns.member = *member;
     return columns;
 }
 
 DrawnStatus status_of(std::string const& word, std::string const& name, std::int64_t member) {
-    refuse_if<BadInput>(word != "ok" && word != "check_failed" && word != "failed",
-                        "ensemble.read_members_table: {}, member {}: unknown status '{}'; it must be ok, check_failed "
-                        "or failed",
-                        name, member, word);
+    refuse_if<BadInput>(word != "ok" && word != "check_failed" && word != "failed", "ensemble.read_members_table",
+                        "{}, member {}: unknown status '{}'; it must be ok, check_failed or failed", name, member,
+                        word);
     return word == "ok" ? DrawnStatus::ok : word == "failed" ? DrawnStatus::failed : DrawnStatus::check_failed;
 }
 
@@ -123,8 +116,8 @@ std::int64_t member_number(std::string const& text, std::string const& name, std
     std::int64_t number = 0;
     auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     refuse_if<BadInput>(error != std::errc() || end != text.data() + text.size() || number < 0,
-                        "ensemble.read_members_table: {}, row {}: member '{}' is not a whole number from 0", name, row,
-                        text);
+                        "ensemble.read_members_table", "{}, row {}: member '{}' is not a whole number from 0", name,
+                        row, text);
     return number;
 }
 
@@ -133,9 +126,8 @@ std::int64_t member_number(std::string const& text, std::string const& name, std
 std::vector<std::vector<std::string>> csv_records(std::string_view text, std::string const& name) {
     constexpr std::string_view mark = "\xEF\xBB\xBF";
     text.remove_prefix(text.starts_with(mark) ? mark.size() : 0);
-    refuse_if<BadInput>(text.find('\0') != std::string_view::npos || !is_utf8(text),
-                        "ensemble.read_members_table: {} is not a text in UTF-8; name the table.csv of an ensemble",
-                        name);
+    refuse_if<BadInput>(text.find('\0') != std::string_view::npos || !is_utf8(text), "ensemble.read_members_table",
+                        "{} is not a text in UTF-8; name the table.csv of an ensemble", name);
     std::vector<std::vector<std::string>> records;
     std::size_t line = 1;
     for (std::size_t at = 0; at < text.size();) {
@@ -155,10 +147,9 @@ std::vector<std::vector<std::string>> csv_records(std::string_view text, std::st
         at += at < text.size() ? 1 : 0; // the line feed
         ++line;
         if (!records.empty()) {
-            refuse_if<BadInput>(record.size() != records.front().size(),
-                                "ensemble.read_members_table: {}, line {} has {} fields and the header {}; correct the "
-                                "line",
-                                name, first_line, record.size(), records.front().size());
+            refuse_if<BadInput>(record.size() != records.front().size(), "ensemble.read_members_table",
+                                "{}, line {} has {} fields and the header {}; correct the line", name, first_line,
+                                record.size(), records.front().size());
         }
         records.push_back(std::move(record));
     }
@@ -174,11 +165,11 @@ double plain_number(std::string_view text) {
 
 MembersTable read_members_table(std::string const& path) {
     auto records = csv_records(io::read_text(path, largest_table), path);
-    refuse_if<BadInput>(records.empty(), "ensemble.read_members_table: {} is empty; name the table.csv of an ensemble",
-                        path);
+    refuse_if<BadInput>(records.empty(), "ensemble.read_members_table",
+                        "{} is empty; name the table.csv of an ensemble", path);
     std::vector<std::string> const header = std::move(records.front());
     Columns const columns = columns_of(header, path);
-    refuse_if<BadInput>(records.size() < 2, "ensemble.read_members_table: {} has a header and no members", path);
+    refuse_if<BadInput>(records.size() < 2, "ensemble.read_members_table", "{} has a header and no members", path);
     MembersTable table;
     for (std::size_t const i : columns.keys) {
         table.keys.push_back(header[i]);
@@ -193,8 +184,8 @@ MembersTable read_members_table(std::string const& path) {
         std::vector<std::string> const& record = records[row];
         DrawnMember member;
         member.number = member_number(record[columns.member], path, row);
-        refuse_if<BadInput>(!numbers.insert(member.number).second,
-                            "ensemble.read_members_table: {} has member {} twice; remove one row", path, member.number);
+        refuse_if<BadInput>(!numbers.insert(member.number).second, "ensemble.read_members_table",
+                            "{} has member {} twice; remove one row", path, member.number);
         member.seed = columns.seed ? record[*columns.seed] : "";
         member.status = columns.status ? status_of(record[*columns.status], path, member.number) : DrawnStatus::ok;
         member.reason = columns.reason ? record[*columns.reason] : "";
@@ -204,20 +195,17 @@ MembersTable read_members_table(std::string const& path) {
         for (std::size_t m = 0; m < columns.measures.size(); ++m) {
             std::string const& text = record[columns.measures[m]];
             double const value = plain_number(text);
-            refuse_if<BadInput>(std::isnan(value) && !text.empty(),
-                                "ensemble.read_members_table: {}, member {}, column '{}': '{}' is not a number; leave "
-                                "unknown values empty",
-                                path, member.number, header[columns.measures[m]], text);
+            refuse_if<BadInput>(std::isnan(value) && !text.empty(), "ensemble.read_members_table",
+                                "{}, member {}, column '{}': '{}' is not a number; leave unknown values empty", path,
+                                member.number, header[columns.measures[m]], text);
             table.measures[m].values.push_back(value);
             has_number = has_number || !std::isnan(value);
         }
         table.members.push_back(std::move(member));
     }
     refuse_if<BadInput>(
-        !has_number,
-        "ensemble.read_members_table: {} has no numbers in columns rivers.*, dem.*, law.*, dem_law.* or "
-        "relief.*; there is nothing to draw",
-        path);
+        !has_number, "ensemble.read_members_table",
+        "{} has no numbers in columns rivers.*, dem.*, law.*, dem_law.* or relief.*; there is nothing to draw", path);
     return table;
 }
 

@@ -179,7 +179,7 @@ std::int64_t work_on(MemberStore& store, MemberNumbers const& missing, Ranks* ra
     if (failure) {
         std::rethrow_exception(failure);
     }
-    refuse_if<IoError>(!others_fine, "another rank has failed");
+    refuse_if<IoError>(!others_fine, "ensemble.make_members", "another rank has failed");
     return missing.size();
 }
 
@@ -220,10 +220,10 @@ EnsembleResult make_members(EnsembleOrder const& order, Ranks* ranks, Run const&
         Stopwatch const stopwatch;
         try {
             result.made_now = work_on(store, missing, ranks, run);
-        } catch (Cancelled const&) {
-            throw Cancelled("interrupted; " + account());
+        } catch (Cancelled const& stopped) {
+            throw Cancelled(stopped.where(), "interrupted; " + account());
         } catch (IoError const& error) {
-            throw IoError(fmt::format("{}; {}", error.what(), account()));
+            throw IoError(error.where(), fmt::format("{}; {}", error.what(), account()));
         }
         result.seconds = stopwatch.time_of("members").wall_s;
         run.tell("members", fmt::format("{} made, {:.3g} a second", result.made_now,

@@ -42,7 +42,7 @@ namespace fs = std::filesystem;
 constexpr std::int64_t largest_input = std::int64_t{1} << 40;
 
 [[noreturn]] void fail_at(std::string const& path, int reason) {
-    throw IoError(fmt::format("ensemble.member_store: {}: {}", path, std::generic_category().message(reason)));
+    throw IoError("ensemble.make_members", fmt::format("{}: {}", path, std::generic_category().message(reason)));
 }
 
 void require_at(std::string const& path, std::error_code error) {
@@ -155,18 +155,17 @@ MemberStore::MemberStore(std::string const& folder, Ensemble ensemble, std::vect
                          MemberFiles const& files, Role role, Share const& share, Run const& run)
     : folder_(folder), inner_((fs::path(folder) / ".ensemble").string()), ensemble_(std::move(ensemble)), files_(files),
       role_(role) {
-    refuse_if<BadParameter>(folder.empty(), "ensemble.member_store: the name of the folder is empty");
+    refuse_if<BadParameter>(folder.empty(), "ensemble.make_members", "the name of the folder is empty");
     std::error_code error;
-    refuse_if<BadInput>(fs::exists(folder, error) && !fs::is_directory(folder, error),
-                        "ensemble.member_store: {} is not a folder", folder);
-    refuse_if<BadInput>(fs::is_symlink(fs::symlink_status(inner_, error)),
-                        "ensemble.member_store: {} is a link: put the folder in its place, or name another folder",
-                        inner_);
+    refuse_if<BadInput>(fs::exists(folder, error) && !fs::is_directory(folder, error), "ensemble.make_members",
+                        "{} is not a folder", folder);
+    refuse_if<BadInput>(fs::is_symlink(fs::symlink_status(inner_, error)), "ensemble.make_members",
+                        "{} is a link: put the folder in its place, or name another folder", inner_);
     // In this order: another first run may begin between the two, and its folder is the first thing in there.
     bool const has_content = fs::exists(folder, error) && !fs::is_empty(folder, error);
     bool const is_known = fs::is_directory(inner_, error) || fs::exists(fs::path(folder) / "ensemble.json", error);
-    refuse_if<BadInput>(has_content && !is_known,
-                        "ensemble.member_store: {} already exists and holds no ensemble: name another folder", folder);
+    refuse_if<BadInput>(has_content && !is_known, "ensemble.make_members",
+                        "{} already exists and holds no ensemble: name another folder", folder);
     if (role == Role::helper) {
         fs::create_directories(inner_, error);
         require_at(inner_, error);
@@ -208,15 +207,15 @@ int MemberStore::locked_at(std::string const& path, bool waits, Run const& run) 
         require_at(inner_, error);
         OpenFile file(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0644));
         if (file.get() < 0) {
-            refuse_if<BadInput>(errno == ELOOP, "ensemble.member_store: {} is a link: remove it", path);
+            refuse_if<BadInput>(errno == ELOOP, "ensemble.make_members", "{} is a link: remove it", path);
             if (errno == ENOENT) {
                 continue;
             }
             fail_at(path, errno);
         }
         struct stat found {};
-        refuse_if<BadInput>(fstat(file.get(), &found) == 0 && !S_ISREG(found.st_mode),
-                            "ensemble.member_store: {} is a pipe or a device: remove it", path);
+        refuse_if<BadInput>(fstat(file.get(), &found) == 0 && !S_ISREG(found.st_mode), "ensemble.make_members",
+                            "{} is a pipe or a device: remove it", path);
         Locked const state = lock_now(file.get());
         if (state == Locked::no) {
             if (!waits) {
@@ -243,10 +242,8 @@ void MemberStore::open_folder(std::vector<std::string> const& vary, Share const&
     }());
     if (role_ == Role::alone) {
         keep(locked_at(inner_ + "/run.lock", false, run));
-        refuse_if<BadInput>(locks_.empty(),
-                            "ensemble.member_store: another thalweg works in {}: wait for it, stop it, or name another "
-                            "folder",
-                            folder_);
+        refuse_if<BadInput>(locks_.empty(), "ensemble.make_members",
+                            "another thalweg works in {}: wait for it, stop it, or name another folder", folder_);
     }
     try {
         start(vary, run);
@@ -291,9 +288,9 @@ void MemberStore::start(std::vector<std::string> const& vary, Run const& run) {
                                           : std::string();
             std::string const here = io::read_text(out.path(name), largest_input);
             bool const is_text = !name.starts_with("inputs/");
-            refuse_if<BadInput>(
-                there != here, "ensemble.member_store: {} holds another ensemble: {} differs{}. Name another folder",
-                folder_, name, is_text ? fmt::format(" (there: {})", first_difference(there, here)) : "");
+            refuse_if<BadInput>(there != here, "ensemble.make_members",
+                                "{} holds another ensemble: {} differs{}. Name another folder", folder_, name,
+                                is_text ? fmt::format(" (there: {})", first_difference(there, here)) : "");
         }
         run.tell("ensemble", fmt::format("goes on in {}", folder_));
     }
@@ -443,7 +440,7 @@ void MemberStore::append(std::string line) {
     std::scoped_lock const hold(guard_);
     // A line that was cut off must stay the last one.
     if (is_broken_) {
-        throw IoError(fmt::format("ensemble.member_store: a row of the table could not be written in {}", inner_));
+        throw IoError("ensemble.make_members", fmt::format("a row of the table could not be written in {}", inner_));
     }
     ssize_t const written = write(journal_, line.data(), line.size());
     if (written != static_cast<ssize_t>(line.size())) {
@@ -572,7 +569,7 @@ void MemberStore::write_shard(std::string const& path, std::vector<io::TarEntry>
             std::string bytes(static_cast<std::size_t>(entry->end - entry->begin), '\0');
             old.seekg(entry->begin);
             refuse_if<IoError>(!old.read(bytes.data(), static_cast<std::streamsize>(bytes.size())),
-                               "ensemble.member_store: {} cannot be read", path);
+                               "ensemble.make_members", "{} cannot be read", path);
             add(bytes);
         }
     };

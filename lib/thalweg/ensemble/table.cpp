@@ -156,7 +156,8 @@ public:
 private:
     void require(bool done) const {
         if (!done) {
-            throw IoError(fmt::format("{}: {}", path_, std::generic_category().message(errno)));
+            throw IoError("ensemble.make_members",
+                          fmt::format("{}: {}", path_, std::generic_category().message(errno)));
         }
     }
     struct Close {
@@ -182,9 +183,9 @@ public:
         std::getline(stream, line);
         std::optional<ordered_json> row = row_in(line);
         if (!row) {
-            throw IoError(fmt::format("ensemble.journals: the row of member {} was changed while it was read: run the "
-                                      "command again",
-                                      place.member));
+            throw IoError(
+                "ensemble.make_members",
+                fmt::format("the row of member {} was changed while it was read: run the command again", place.member));
         }
         return std::move(*row);
     }
@@ -274,23 +275,22 @@ Journals::Journals(std::string const& folder, Run const& run) {
     for (fs::directory_entry const& entry : fs::directory_iterator(folder, error)) {
         std::string const name = entry.path().filename().string();
         if (name.starts_with("rows-") && name.ends_with(".jsonl")) {
-            refuse_if<BadInput>(!fs::is_regular_file(entry.symlink_status()),
-                                "ensemble.journals: {} is not a file of thalweg's but a link, a folder, a pipe or a "
-                                "device: remove it",
+            refuse_if<BadInput>(!fs::is_regular_file(entry.symlink_status()), "ensemble.make_members",
+                                "{} is not a file of thalweg's but a link, a folder, a pipe or a device: remove it",
                                 entry.path().string());
             journals_.push_back(entry.path().string());
         }
     }
     if (error) {
-        throw IoError(fmt::format("ensemble.journals: {}: {}", folder, error.message()));
+        throw IoError("ensemble.make_members", fmt::format("{}: {}", folder, error.message()));
     }
     std::ranges::sort(journals_);
     Lists lists(lists_);
     for (std::size_t i = 0; i < journals_.size(); ++i) {
         std::ifstream stream(journals_[i], std::ios::binary);
         if (!stream) {
-            throw IoError(
-                fmt::format("ensemble.journals: {}: {}", journals_[i], std::generic_category().message(errno)));
+            throw IoError("ensemble.make_members",
+                          fmt::format("{}: {}", journals_[i], std::generic_category().message(errno)));
         }
         std::int64_t offset = 0;
         for (std::string line; std::getline(stream, line) && !stream.eof(); offset = stream.tellg()) {
@@ -307,7 +307,7 @@ Journals::Journals(std::string const& folder, Run const& run) {
                              .is_failed = (*row)["status"] == name_of(MemberState::failed)});
         }
         if (stream.bad()) { // else it would be a journal that ends there
-            throw IoError(fmt::format("ensemble.journals: {} cannot be read to its end", journals_[i]));
+            throw IoError("ensemble.make_members", fmt::format("{} cannot be read to its end", journals_[i]));
         }
     }
     keep_one_each(rows_);

@@ -49,28 +49,28 @@ ExportFormat export_format_of(ExportParams const& params) {
     if (params.format.empty() && ending == ".raw") { // as Unity and Unreal name it
         return ExportFormat::r16;
     }
-    throw BadParameter(params.format.empty()
-                           ? fmt::format("export.run_export: the name of {} does not tell the format; name one of {}",
-                                         params.output, fmt::join(names, ", "))
-                           : fmt::format("export.run_export: unknown format '{}'; the formats are {}.{}", params.format,
-                                         fmt::join(names, ", "), did_you_mean(params.format, names)));
+    throw BadParameter("export.run_export",
+                       params.format.empty() ? fmt::format("the name of {} does not tell the format; name one of {}",
+                                                           params.output, fmt::join(names, ", "))
+                                             : fmt::format("unknown format '{}'; the formats are {}.{}", params.format,
+                                                           fmt::join(names, ", "), did_you_mean(params.format, names)));
 }
 
 void require_options(ExportParams const& params, ExportFormat format) {
-    refuse_if<BadParameter>(params.output.empty(), "export.run_export: the name of the output is empty");
-    refuse_if<BadParameter>(params.exaggeration && !is_mesh(format),
-                            "export.run_export: --exaggeration applies to meshes (glb, obj, stl), not to {}: a program "
-                            "that reads it scales heights itself",
-                            export_name_of(format));
-    refuse_if<BadParameter>(params.base && format != ExportFormat::stl,
-                            "export.run_export: --base applies to the solid of stl, not to {}", export_name_of(format));
+    refuse_if<BadParameter>(params.output.empty(), "export.run_export", "the name of the output is empty");
+    refuse_if<BadParameter>(
+        params.exaggeration && !is_mesh(format), "export.run_export",
+        "--exaggeration applies to meshes (glb, obj, stl), not to {}: a program that reads it scales heights itself",
+        export_name_of(format));
+    refuse_if<BadParameter>(params.base && format != ExportFormat::stl, "export.run_export",
+                            "--base applies to the solid of stl, not to {}", export_name_of(format));
     refuse_if<BadParameter>(
         params.tiles_across || params.tiles_down || !params.masks.empty() || params.mask_bits || params.runoff_mm ||
             params.tree_line_m || params.print_mm,
-        "export.run_export: tiles, masks, runoff, tree line and print size belong to --for PRESET, not "
-        "to a single file");
-    refuse_if<BadParameter>(params.width.has_value() != params.height.has_value(),
-                            "export.run_export: a size has a width and a height");
+        "export.run_export",
+        "tiles, masks, runoff, tree line and print size belong to --for PRESET, not to a single file");
+    refuse_if<BadParameter>(params.width.has_value() != params.height.has_value(), "export.run_export",
+                            "a size has a width and a height");
     require_gap_options(params);
     for (auto const& [name, value] : {std::pair{"exaggeration", params.exaggeration}, {"base", params.base}}) {
         if (value) {
@@ -87,17 +87,17 @@ void require_options(ExportParams const& params, ExportFormat format) {
 }
 
 ExportSize size_of(ExportParams const& params, ExportFormat format, Grid const& grid, std::vector<Finding>& findings) {
-    refuse_if<BadInput>(grid.width < 2 || grid.height < 2,
-                        "export.run_export: {} has {} x {} cells: at least 2 x 2 are needed", params.source, grid.width,
-                        grid.height);
+    refuse_if<BadInput>(grid.width < 2 || grid.height < 2, "export.run_export",
+                        "{} has {} x {} cells: at least 2 x 2 are needed", params.source, grid.width, grid.height);
     if (params.width) {
         ExportSize const asked{*params.width, *params.height};
         double const across = static_cast<double>(grid.width - 1) / static_cast<double>(asked.width - 1);
         double const down = static_cast<double>(grid.height - 1) / static_cast<double>(asked.height - 1);
         if (std::fabs(across - down) > 0.01 * std::min(across, down)) {
             ExportSize const fit = fitting(grid, std::max(asked.width, asked.height));
-            throw BadInput(fmt::format("export.run_export: {} x {} would stretch a DEM of {} x {} cells by {:.0f} %: "
-                                       "use --size {}x{}, or cut the DEM to that shape first (gdal_translate -srcwin)",
+            throw BadInput("export.run_export",
+                           fmt::format("{} x {} would stretch a DEM of {} x {} cells by {:.0f} %: use --size {}x{}, or "
+                                       "cut the DEM to that shape first (gdal_translate -srcwin)",
                                        asked.width, asked.height, grid.width, grid.height,
                                        100.0 * (std::max(across, down) / std::min(across, down) - 1.0), fit.width,
                                        fit.height));
@@ -185,7 +185,7 @@ private:
     static std::vector<std::string> names_of(fs::path const& path, ExportFormat format) {
         std::string const name = path.filename().string();
         refuse_if<BadParameter>(name.empty() || name == "." || name == ".." || fs::is_directory(path),
-                                "export.run_export: {} is a folder: name a file", path.string());
+                                "export.run_export", "{} is a folder: name a file", path.string());
         std::vector<std::string> names{name};
         if (format == ExportFormat::obj) {
             names.push_back(path.stem().string() + ".mtl");
@@ -260,7 +260,7 @@ ExportResult run_export(ExportParams const& params, Run const& run) {
     constexpr std::int64_t longest_side = 30000;
     report::SceneRead read = report::read_scene(
         {.source = params.source, .network = {}, .reading = params.reading, .most_side = longest_side}, run);
-    refuse_if<BadInput>(!read.scene.dem, "export.run_export: {} holds no dem.tif", params.source);
+    refuse_if<BadInput>(!read.scene.dem, "export.run_export", "{} holds no dem.tif", params.source);
     made.findings = std::move(read.findings);
     bool const keeps_gaps = made.format == ExportFormat::glb || made.format == ExportFormat::obj;
     if (!keeps_gaps || asks_for_gaps(params)) {
@@ -274,7 +274,7 @@ ExportResult run_export(ExportParams const& params, Run const& run) {
     made.north_west = ground.north_west();
     made.crs = ground.z.grid().crs;
     auto const range = report::height_range(ground.z);
-    refuse_if<BadInput>(!range, "export.run_export: no vertex has a height");
+    refuse_if<BadInput>(!range, "export.run_export", "no vertex has a height");
     made.min_m = range->first;
     made.max_m = range->second;
     if (is_mesh(made.format)) {

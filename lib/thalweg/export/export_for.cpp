@@ -71,8 +71,8 @@ ExportPreset preset_of(std::string const& word) {
         }
         names.emplace_back(known.name);
     }
-    throw BadParameter(fmt::format("export.run_export: no preset is called '{}'; the presets are {}.{}", word,
-                                   fmt::join(names, ", "), did_you_mean(word, names)));
+    throw BadParameter("export.run_export", fmt::format("no preset is called '{}'; the presets are {}.{}", word,
+                                                        fmt::join(names, ", "), did_you_mean(word, names)));
 }
 
 std::vector<LandMask> masks_of(std::vector<std::string> const& words) {
@@ -82,11 +82,11 @@ std::vector<LandMask> masks_of(std::vector<std::string> const& words) {
         names.emplace_back(known.name);
     }
     for (std::string const& word : words) {
-        refuse_if<BadParameter>(std::ranges::find(names, word) == names.end(),
-                                "export.run_export: no mask is called '{}'; there are {}.{}", word,
-                                fmt::join(names, ", "), did_you_mean(word, names));
-        refuse_if<BadParameter>((word == "all" || word == "none") && words.size() > 1,
-                                "export.run_export: '{}' stands alone among masks", word);
+        refuse_if<BadParameter>(std::ranges::find(names, word) == names.end(), "export.run_export",
+                                "no mask is called '{}'; there are {}.{}", word, fmt::join(names, ", "),
+                                did_you_mean(word, names));
+        refuse_if<BadParameter>((word == "all" || word == "none") && words.size() > 1, "export.run_export",
+                                "'{}' stands alone among masks", word);
     }
     for (LandMaskName const& known : land_masks()) {
         if (words.empty() || words.front() == "all" || std::ranges::find(words, known.name) != words.end()) {
@@ -172,9 +172,8 @@ ExportSize usual_size(Program const& program, Sides const& sides, Grid const& gr
 }
 
 Tiles tiles_of(ExportParams const& params, Program const& program, Grid const& grid) {
-    refuse_if<BadInput>(grid.width < 2 || grid.height < 2,
-                        "export.run_export: {} has {} x {} cells: at least 2 x 2 are needed", params.source, grid.width,
-                        grid.height);
+    refuse_if<BadInput>(grid.width < 2 || grid.height < 2, "export.run_export",
+                        "{} has {} x {} cells: at least 2 x 2 are needed", params.source, grid.width, grid.height);
     Tiles tiles{params.tiles_across.value_or(1), params.tiles_down.value_or(1), {}};
     Sides const sides = sides_of(program.preset);
     if (params.width) {
@@ -182,34 +181,34 @@ Tiles tiles_of(ExportParams const& params, Program const& program, Grid const& g
             if (!sides.has(side)) {
                 std::string const advice =
                     sides.usual.empty() ? "" : fmt::format(": use {}", nearest_usual(sides, static_cast<double>(side)));
-                throw BadParameter(fmt::format("export.run_export: {} samples a side are no size of {}, which takes "
-                                               "{}{}",
-                                               side, params.preset, sides.rule, advice));
+                throw BadParameter("export.run_export",
+                                   fmt::format("{} samples a side are no size of {}, which takes {}{}", side,
+                                               params.preset, sides.rule, advice));
             }
         }
-        refuse_if<BadParameter>(program.square && *params.width != *params.height,
-                                "export.run_export: {} takes square tiles: --size {}", params.preset,
+        refuse_if<BadParameter>(program.square && *params.width != *params.height, "export.run_export",
+                                "{} takes square tiles: --size {}", params.preset,
                                 std::max(*params.width, *params.height));
         tiles.one = {*params.width, *params.height};
-        refuse_if<BadParameter>(program.preset == ExportPreset::unreal && section_of(tiles.one) == 0,
-                                "export.run_export: {} x {}: both sides of a landscape are multiples of 63 and one, or "
-                                "both of 127 and one",
-                                tiles.one.width, tiles.one.height);
+        refuse_if<BadParameter>(
+            program.preset == ExportPreset::unreal && section_of(tiles.one) == 0, "export.run_export",
+            "{} x {}: both sides of a landscape are multiples of 63 and one, or both of 127 and one", tiles.one.width,
+            tiles.one.height);
     } else {
         tiles.one = usual_size(program, sides, grid, tiles);
     }
     ExportSize const all = tiles.all();
-    refuse_if<BadParameter>(std::max(all.width, all.height) > most_samples_for,
-                            "export.run_export: {} x {} samples are more than {} a side: use fewer or smaller tiles",
-                            all.width, all.height, most_samples_for);
+    refuse_if<BadParameter>(std::max(all.width, all.height) > most_samples_for, "export.run_export",
+                            "{} x {} samples are more than {} a side: use fewer or smaller tiles", all.width,
+                            all.height, most_samples_for);
     return tiles;
 }
 
 /// Refuses options that a preset does not have.
 void require_options_for(ExportParams const& params, ExportPreset preset) {
-    refuse_if<BadParameter>(params.output.empty(), "export.run_export: the name of the output is empty");
-    refuse_if<BadParameter>(!params.format.empty(),
-                            "export.run_export: --for chooses the formats: leave out --format {}", params.format);
+    refuse_if<BadParameter>(params.output.empty(), "export.run_export", "the name of the output is empty");
+    refuse_if<BadParameter>(!params.format.empty(), "export.run_export",
+                            "--for chooses the formats: leave out --format {}", params.format);
     bool const prints = preset == ExportPreset::print3d;
     Program const* const program = program_of(preset);
     bool const has_tiles = program != nullptr && program->tiles;
@@ -228,7 +227,7 @@ void require_options_for(ExportParams const& params, ExportPreset preset) {
                                  Option{params.exaggeration.has_value(), has_mesh, "--exaggeration"},
                                  Option{params.base.has_value(), prints, "--base"},
                                  Option{params.print_mm.has_value(), prints, "--print-size"}}) {
-        refuse_if<BadParameter>(option.is_set && !option.applies, "export.run_export: {} has no option {}",
+        refuse_if<BadParameter>(option.is_set && !option.applies, "export.run_export", "{} has no option {}",
                                 params.preset, option.name);
     }
     if (params.exaggeration) {
@@ -241,7 +240,7 @@ void require_options_for(ExportParams const& params, ExportPreset preset) {
     require_gap_options(params);
     require_in("export.run_export", "tree-line", params.tree_line_m.value_or(0.0), Range::finite(), "m");
     std::int64_t const bits = params.mask_bits.value_or(8);
-    refuse_if<BadParameter>(bits != 8 && bits != 16, "export.run_export: masks have 8 or 16 bits, not {}", bits);
+    refuse_if<BadParameter>(bits != 8 && bits != 16, "export.run_export", "masks have 8 or 16 bits, not {}", bits);
     masks_of(params.masks);
 }
 
@@ -782,7 +781,7 @@ ExportResult run_export_for(ExportParams const& params, Run const& run) {
     constexpr std::int64_t longest_side = 30000;
     report::SceneRead read = report::read_scene(
         {.source = params.source, .network = {}, .reading = params.reading, .most_side = longest_side}, run);
-    refuse_if<BadInput>(!read.scene.dem, "export.run_export: {} holds no dem.tif", params.source);
+    refuse_if<BadInput>(!read.scene.dem, "export.run_export", "{} holds no dem.tif", params.source);
     ExportResult made;
     made.findings = std::move(read.findings);
     std::string const name = fs::path(params.source).lexically_normal().filename().string();

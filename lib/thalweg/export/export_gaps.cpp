@@ -29,8 +29,8 @@ template <class Names> auto named_gaps(Names const& table, std::string const& wo
         }
         names.emplace_back(known.name);
     }
-    throw BadParameter(fmt::format("export.run_export: {} '{}' is unknown: use {}.{}", option, word,
-                                   fmt::join(names, ", "), did_you_mean(word, names)));
+    throw BadParameter("export.run_export", fmt::format("{} '{}' is unknown: use {}.{}", option, word,
+                                                        fmt::join(names, ", "), did_you_mean(word, names)));
 }
 
 surface::CloseGapsParams gap_params(ExportParams const& params) {
@@ -192,15 +192,15 @@ bool asks_for_gaps(ExportParams const& params) {
 void require_gap_options(ExportParams const& params) {
     surface::CloseGapsParams const gaps = gap_params(params);
     require_in("export.run_export", "sea-level", params.sea_level_m.value_or(0.0), Range::finite(), "m");
-    refuse_if<BadParameter>(gaps.rim == surface::RimGaps::sea && !gaps.sea_m,
-                            "export.run_export: --rim sea needs the height of the sea: --sea-level 0");
+    refuse_if<BadParameter>(gaps.rim == surface::RimGaps::sea && !gaps.sea_m, "export.run_export",
+                            "--rim sea needs the height of the sea: --sea-level 0");
 }
 
 void close_gaps_of(report::Scene& scene, ExportParams const& params, ExportResult& made, Run const& run) {
     if (scene.sea) {
-        refuse_if<BadInput>(asks_for_gaps(params),
-                            "export.run_export: {} has a sea at {:.6g} m, by its recipe, and its cells without data "
-                            "are that sea: leave out --rim, --holes and --sea-level",
+        refuse_if<BadInput>(asks_for_gaps(params), "export.run_export",
+                            "{} has a sea at {:.6g} m, by its recipe, and its cells without data are that sea: leave "
+                            "out --rim, --holes and --sea-level",
                             params.source, scene.sea->level_m);
         return;
     }

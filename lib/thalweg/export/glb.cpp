@@ -214,9 +214,8 @@ std::string glb(GlbScene const& scene, Run const& run) {
     text.resize((text.size() + 3) / 4 * 4, ' ');
     constexpr std::size_t heads = 12 + 8 + 8;
     std::size_t const size = heads + text.size() + buffer.bytes.size();
-    refuse_if<BadInput>(
-        size > std::numeric_limits<std::uint32_t>::max(),
-        "export.glb: the file would have {} bytes, GLB holds at most 2^32 - 1: make it smaller (--size)", size);
+    refuse_if<BadInput>(size > std::numeric_limits<std::uint32_t>::max(), "export.glb",
+                        "the file would have {} bytes, GLB holds at most 2^32 - 1: make it smaller (--size)", size);
     std::string file;
     file.reserve(size);
     for (std::uint32_t const word :

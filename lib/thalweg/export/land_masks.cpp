@@ -213,9 +213,8 @@ LandMasks::Beside const& LandMasks::beside(Run const& run) {
             }
         }
     }
-    refuse_if<BadInput>(std::ranges::find(marked.values(), 1) == marked.values().end(),
-                        "export.run_export: there are no rivers: masks river_distance and river_width need a folder "
-                        "written by make");
+    refuse_if<BadInput>(std::ranges::find(marked.values(), 1) == marked.values().end(), "export.run_export",
+                        "there are no rivers: masks river_distance and river_width need a folder written by make");
     beside_ = Beside{nearest_cells(marked, run), std::move(widths)};
     return *beside_;
 }

@@ -34,9 +34,8 @@ Raster<float> without_holes(report::Scene const& scene) {
         std::ranges::replace_if(dem.values(), is_hole, static_cast<float>(scene.sea->level_m));
     }
     auto const holes = std::ranges::count_if(dem.values(), is_hole);
-    refuse_if<BadInput>(holes > 0,
-                        "export.write_print: {} of {} cells have no data: a solid has no holes; close them first "
-                        "(surface.close_gaps)",
+    refuse_if<BadInput>(holes > 0, "export.write_print",
+                        "{} of {} cells have no data: a solid has no holes; close them first (surface.close_gaps)",
                         holes, dem.cells());
     return dem;
 }
@@ -84,11 +83,10 @@ std::vector<Finding> print_findings(PrintExport const& made, PrintParams const& 
 PrintExport write_print(report::Scene const& scene, PrintParams const& params, io::OutputFolder const& out,
                         Run const& run) {
     require_print(params);
-    refuse_if<BadInput>(!scene.dem, "export.write_print: there is no DEM");
+    refuse_if<BadInput>(!scene.dem, "export.write_print", "there is no DEM");
     Raster<float> const dem = without_holes(scene);
-    refuse_if<BadInput>(dem.width() < 2 || dem.height() < 2,
-                        "export.write_print: the DEM has {} x {} cells: at least 2 x 2 are needed", dem.width(),
-                        dem.height());
+    refuse_if<BadInput>(dem.width() < 2 || dem.height() < 2, "export.write_print",
+                        "the DEM has {} x {} cells: at least 2 x 2 are needed", dem.width(), dem.height());
     Lattice const ground = lattice_to_print(dem, params, run);
     Vec2 const extent = ground.extent_m();
     double const mm_per_m = params.longest_mm / std::max(extent.x, extent.y);

@@ -213,9 +213,9 @@ std::string web_page(report::Scene const& scene, WebJson const& data, std::strin
 void require_web(report::Scene const& scene, WebExportParams const& params) {
     require_in("export.write_web", "exaggeration", params.exaggeration, Range::above(0.0));
     require_in("export.write_web", "most_bytes", params.most_bytes, Range::at_least(1));
-    refuse_if<BadInput>(!scene.dem, "export.write_web: there is no DEM");
+    refuse_if<BadInput>(!scene.dem, "export.write_web", "there is no DEM");
     refuse_if<BadInput>(std::ranges::all_of(scene.dem->values(), [](float z) { return std::isnan(z); }),
-                        "export.write_web: no cell has a height");
+                        "export.write_web", "no cell has a height");
 }
 
 } // namespace

@@ -384,7 +384,8 @@ Raster<float> carve_depressions(Raster<float> const& dem, Valley const& valley, 
 
 Raster<float> carve(Raster<float> const& dem, Valley const& valley, Raster<float> const& least, Run const& run) {
     check_drainable(dem, valley, run);
-    require_same_grid(least.grid(), dem.grid(), "flow.carve: the least heights and the land", "make both on one grid");
+    require_same_grid(least.grid(), dem.grid(), "flow.carve", "the least heights and the land",
+                      "make both on one grid");
     return undrained_cells(dem, valley.z, run).empty() ? dem : carve_depressions(dem, valley, least, run);
 }
 

@@ -17,8 +17,8 @@ namespace {
 constexpr std::int32_t nowhere = -1;
 
 void require_countable(std::size_t count, char const* what) {
-    refuse_if<BadInput>(std::cmp_greater(count, std::numeric_limits<std::int32_t>::max()),
-                        "flow.catchments: {} {}, 2^31 or more", count, what);
+    refuse_if<BadInput>(std::cmp_greater(count, std::numeric_limits<std::int32_t>::max()), "flow.catchments",
+                        "{} {}, 2^31 or more", count, what);
 }
 
 /// By position in cells (ascending by index): counts the grid cells nearest to it by city-block distance, ties to the
@@ -30,7 +30,7 @@ std::vector<std::int64_t> count_nearest(std::vector<RiverCell> const& cells, Gri
     constexpr Key nothing = Key{1} << 62U;
     constexpr std::int64_t most = std::int64_t{1} << 30U; // limit of either half of a key
     refuse_if<BadInput>(grid.width + grid.height > most || static_cast<std::int64_t>(cells.size()) > most,
-                        "flow.areas_nearest: {} x {} cells with {} river cells are beyond 2^30 of either", grid.width,
+                        "flow.areas_nearest", "{} x {} cells with {} river cells are beyond 2^30 of either", grid.width,
                         grid.height, cells.size());
     auto const width = static_cast<std::size_t>(grid.width);
     Raster<Key> keys(grid, nothing);
@@ -110,7 +110,8 @@ ContributingAreas accumulate(StreamNetwork const& network, std::vector<RiverCell
 Reaches reaches_of(StreamNetwork const& network) {
     for (NodeId n = 0; n < network.node_count(); ++n) {
         if (network.out_arcs(n).size() > 1) {
-            throw BadInput(fmt::format("flow.reaches_of: {} arcs leave node {} at ({}, {}); a river must not split",
+            throw BadInput("flow.reaches_of",
+                           fmt::format("{} arcs leave node {} at ({}, {}); a river must not split",
                                        network.out_arcs(n).size(), n + 1, network.node(n).at.x, network.node(n).at.y));
         }
     }
@@ -135,9 +136,10 @@ std::vector<std::int64_t> steps_to_outlet(Reaches const& reaches) {
         std::int64_t below = 0;
         for (ReachId at = start; steps[at] <= 0;) {
             if (steps[at] == on_the_way) {
-                throw BadInput(fmt::format("flow.steps_to_outlet: arc {} leads to no outlet: its rivers run in a "
-                                           "circle; see what thalweg check says",
-                                           reaches[at].id));
+                throw BadInput(
+                    "flow.steps_to_outlet",
+                    fmt::format("arc {} leads to no outlet: its rivers run in a circle; see what thalweg check says",
+                                reaches[at].id));
             }
             steps[at] = on_the_way;
             way.push_back(at);
@@ -146,8 +148,8 @@ std::vector<std::int64_t> steps_to_outlet(Reaches const& reaches) {
             }
             ReachId const next = reaches[at].ds;
             if (next >= std::ssize(reaches)) {
-                throw BadInput(fmt::format("flow.steps_to_outlet: arc {} runs into reach {} of {}", reaches[at].id,
-                                           next, reaches.size()));
+                throw BadInput("flow.steps_to_outlet",
+                               fmt::format("arc {} runs into reach {} of {}", reaches[at].id, next, reaches.size()));
             }
             at = next;
             below = std::max<std::int64_t>(steps[at], 0);
@@ -186,8 +188,8 @@ Raster<std::int32_t> first_met(std::vector<RiverCell> const& cells, FlowField co
     Raster<std::int32_t> to(grid, unknown);
     for (std::size_t i = 0; i < cells.size(); ++i) {
         if (cells[i].cell < 0 || cells[i].cell >= grid.cells()) {
-            throw BadInput("flow.first_met: cell " + std::to_string(cells[i].cell) + " is none of the flow field's " +
-                           std::to_string(grid.cells()));
+            throw BadInput("flow.first_met", "cell " + std::to_string(cells[i].cell) + " is none of the flow field's " +
+                                                 std::to_string(grid.cells()));
         }
         if (drainage.direction[cells[i].cell] != Direction::no_data) {
             to[cells[i].cell] = static_cast<std::int32_t>(i);

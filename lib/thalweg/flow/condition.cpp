@@ -20,8 +20,8 @@ namespace thalweg::flow {
 
 void check_drainable(Raster<float> const& dem, Valley const& valley, Run const& run) {
     Grid const& grid = dem.grid();
-    refuse_if<BadInput>(grid.cells() == 0, "flow.condition: the land has no cells");
-    require_same_grid(valley.z.grid(), grid, "flow.condition: the valley and the land", "make both on one grid");
+    refuse_if<BadInput>(grid.cells() == 0, "flow.condition", "the land has no cells");
+    require_same_grid(valley.z.grid(), grid, "flow.condition", "the valley and the land", "make both on one grid");
     std::atomic<bool> all_fit = true;
     parallel_ranges(run, grid.cells(), cells_between_checks, [&](std::int64_t begin, std::int64_t end) {
         float const* const land = dem.values().data();
@@ -38,9 +38,9 @@ void check_drainable(Raster<float> const& dem, Valley const& valley, Run const& 
     for (std::int64_t i = 0; !all_fit && i < grid.cells(); ++i) {
         if (std::isinf(dem[i]) || (std::isnan(dem[i]) && !std::isnan(valley.z[i]))) {
             Cell const cell = grid.at(i);
-            throw BadInput(fmt::format("flow.condition: the height at column {}, row {} is {}", cell.col, cell.row,
-                                       std::isinf(dem[i]) ? "infinite; mark cells without data as NaN"
-                                                          : "missing, where a river runs"));
+            throw BadInput("flow.condition", fmt::format("the height at column {}, row {} is {}", cell.col, cell.row,
+                                                         std::isinf(dem[i]) ? "infinite; mark cells without data as NaN"
+                                                                            : "missing, where a river runs"));
         }
     }
 }
@@ -165,10 +165,11 @@ Valley no_rivers(Grid const& grid) {
 } // namespace
 
 Banks confine_channels(Raster<float> const& dem, Valley const& valley, RaiseBanksParams const& params, Run const& run) {
-    refuse_if<BadParameter>(!(params.margin_m >= 0.0 && params.margin_m < 1e6),
-                            "flow.confine_channels: margin {} m; give one from 0", params.margin_m);
+    refuse_if<BadParameter>(!(params.margin_m >= 0.0 && params.margin_m < 1e6), "flow.confine_channels",
+                            "margin {} m; give one from 0", params.margin_m);
     Grid const& grid = dem.grid();
-    require_same_grid(valley.z.grid(), grid, "flow.confine_channels: the valley and the land", "make both on one grid");
+    require_same_grid(valley.z.grid(), grid, "flow.confine_channels", "the valley and the land",
+                      "make both on one grid");
     Banks banks{dem, Raster<float>(grid, std::numeric_limits<float>::quiet_NaN())};
     each_bank(Banked::all, dem, valley.z, params.margin_m, run, [&](CellIndex i, float least) {
         if (!(banks.least[i] >= least)) {
@@ -180,7 +181,7 @@ Banks confine_channels(Raster<float> const& dem, Valley const& valley, RaiseBank
 }
 
 DemChange change_between(Raster<float> const& before, Raster<float> const& after) {
-    require_same_grid(before.grid(), after.grid(), "flow.change_between: the DEMs before and after",
+    require_same_grid(before.grid(), after.grid(), "flow.change_between", "the DEMs before and after",
                       "resample one to the cells of the other");
     DemChange change;
     double const cell_m2 = before.grid().cell_m * before.grid().cell_m;

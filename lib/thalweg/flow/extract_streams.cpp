@@ -110,10 +110,9 @@ ExtractedStreams extract_streams(FlowField const& drainage, Raster<float> const&
     }
     std::int64_t const support =
         params.support_km2 ? support_for_area(drainage, *params.support_km2) : params.support_cells;
-    refuse_if<BadParameter>(params.support_cells < 1,
-                            "flow.extract_streams: the support is {} cells; it must be at least 1",
-                            params.support_cells);
-    require_same_grid(dem.grid(), grid, "flow.extract_streams: the DEM and its drainage", "drain this DEM");
+    refuse_if<BadParameter>(params.support_cells < 1, "flow.extract_streams",
+                            "the support is {} cells; it must be at least 1", params.support_cells);
+    require_same_grid(dem.grid(), grid, "flow.extract_streams", "the DEM and its drainage", "drain this DEM");
     ExtractedStreams streams;
     NetworkDraft plan;
     streams.areas.source = "d8";
@@ -157,8 +156,8 @@ ExtractedStreams extract_streams(FlowField const& drainage, Raster<float> const&
 }
 
 std::int64_t support_for_length(FlowField const& drainage, double length_m, Run const& run) {
-    refuse_if<BadParameter>(!(length_m > 0.0) || std::isinf(length_m),
-                            "flow.support_for_length: the length is {} m; it must be above 0", length_m);
+    refuse_if<BadParameter>(!(length_m > 0.0) || std::isinf(length_m), "flow.support_for_length",
+                            "the length is {} m; it must be above 0", length_m);
     double const enough = length_m / drainage.grid().cell_m;
     Steps larger;
     constexpr std::size_t none = 32;

@@ -63,15 +63,14 @@ bool reaches_data(Raster<Direction> const& direction, std::int64_t i, Cell here)
 }
 
 /// The index of the cell that a position lies in.
-std::int64_t cell_at(FlowField const& drainage, Vec2 at, char const* what) {
+std::int64_t cell_at(FlowField const& drainage, Vec2 at, char const* where) {
     Grid const& grid = drainage.grid();
     Cell const cell = is_finite(at) ? grid.cell_of(at) : Cell{-1, -1};
-    refuse_if<BadInput>(!grid.contains(cell),
-                        "{}: the point ({:.10g}, {:.10g}) is outside the grid, x {:.10g} to {:.10g}, "
-                        "y {:.10g} to {:.10g}",
-                        what, at.x, at.y, grid.west, grid.east(), grid.south(), grid.north);
-    refuse_if<BadInput>(drainage.direction[cell] == Direction::no_data,
-                        "{}: the DEM has no data at the point ({:.10g}, {:.10g})", what, at.x, at.y);
+    refuse_if<BadInput>(!grid.contains(cell), where,
+                        "the point ({:.10g}, {:.10g}) is outside the grid, x {:.10g} to {:.10g}, y {:.10g} to {:.10g}",
+                        at.x, at.y, grid.west, grid.east(), grid.south(), grid.north);
+    refuse_if<BadInput>(drainage.direction[cell] == Direction::no_data, where,
+                        "the DEM has no data at the point ({:.10g}, {:.10g})", at.x, at.y);
     return grid.index(cell);
 }
 
@@ -113,11 +112,12 @@ Raster<Direction> directions_of(Raster<std::int32_t> const& codes, DirectionCode
         bool const is_signed = known.has_signs && code < 0;
         auto const found = std::ranges::find(known.to, is_signed ? -code : code);
         if (found == known.to.end()) {
-            throw BadInput(fmt::format(
-                "flow.directions_of: {} at column {}, row {} is no direction; the codes are {}, from "
-                "the east clockwise{}",
-                code, cell.col, cell.row, fmt::join(known.to, ", "),
-                known.ends == no_code ? std::string() : fmt::format(", and {} where water ends", known.ends)));
+            throw BadInput(
+                "flow.directions_of",
+                fmt::format("{} at column {}, row {} is no direction; the codes are {}, from the east clockwise{}",
+                            code, cell.col, cell.row, fmt::join(known.to, ", "),
+                            known.ends == no_code ? std::string()
+                                                  : fmt::format(", and {} where water ends", known.ends)));
         }
         direction[i] = is_signed ? Direction::leaves : direction_of(static_cast<std::size_t>(found - known.to.begin()));
     });
@@ -147,17 +147,16 @@ Raster<std::int32_t> codes_of(Raster<Direction> const& direction, DirectionCodes
 
 FlowField follow(Raster<Direction> const& direction, Run const& run) {
     Grid const& grid = direction.grid();
-    refuse_if<BadInput>(grid.cells() == 0, "flow.follow: the directions have no cells");
+    refuse_if<BadInput>(grid.cells() == 0, "flow.follow", "the directions have no cells");
     require_countable(grid, "flow.follow");
     FlowField drainage{direction, Raster<CellCount>(grid)};
     std::int64_t left = 0; // cells whose water has not run on
     each_cell(grid, run, [&](std::int64_t i, Cell cell) {
         Direction const way = direction[i];
         if (goes_on(way) ? !reaches_data(direction, i, cell) : way != Direction::no_data && way != Direction::leaves) {
-            throw BadInput(
-                fmt::format("flow.follow: the direction {} at column {}, row {} leads off the grid, into no data "
-                            "or nowhere; directions_of marks such cells",
-                            static_cast<int>(way), cell.col, cell.row));
+            throw BadInput("flow.follow", fmt::format("the direction {} at column {}, row {} leads off the grid, into "
+                                                      "no data or nowhere; directions_of marks such cells",
+                                                      static_cast<int>(way), cell.col, cell.row));
         }
         drainage.area_cells[i] = way == Direction::no_data ? 0 : 1;
         left += goes_on(way) ? 1 : 0;
@@ -166,13 +165,13 @@ FlowField follow(Raster<Direction> const& direction, Run const& run) {
         drainage.area_cells[receiver] += drainage.area_cells[cell];
         --left;
     });
-    refuse_if<BadInput>(left > 0, "flow.follow: water of {} cells runs in a circle", left);
+    refuse_if<BadInput>(left > 0, "flow.follow", "water of {} cells runs in a circle", left);
     return drainage;
 }
 
 Raster<double> accumulate(FlowField const& drainage, Raster<double> const& amounts, Run const& run) {
     Grid const& grid = drainage.grid();
-    require_same_grid(amounts.grid(), grid, "flow.accumulate: the amounts and the drainage",
+    require_same_grid(amounts.grid(), grid, "flow.accumulate", "the amounts and the drainage",
                       "give amounts on the cells of the DEM");
     Raster<double> sum(grid, std::numeric_limits<double>::quiet_NaN());
     each_cell(grid, run, [&](std::int64_t i, Cell cell) {
@@ -180,10 +179,9 @@ Raster<double> accumulate(FlowField const& drainage, Raster<double> const& amoun
             return;
         }
         if (!std::isfinite(amounts[i])) {
-            throw BadInput(
-                fmt::format("flow.accumulate: the amount at column {}, row {} is {}, where the DEM has data; give "
-                            "0 for none",
-                            cell.col, cell.row, amounts[i]));
+            throw BadInput("flow.accumulate",
+                           fmt::format("the amount at column {}, row {} is {}, where the DEM has data; give 0 for none",
+                                       cell.col, cell.row, amounts[i]));
         }
         sum[i] = amounts[i];
     });
@@ -221,7 +219,7 @@ Mask catchment(FlowField const& drainage, Vec2 outlet, CatchmentParams const& pa
 std::vector<std::int64_t> path_down(FlowField const& drainage, Vec2 from, Run const& run) {
     std::vector<std::int64_t> path;
     for (std::int64_t at = cell_at(drainage, from, "flow.path_down"); at >= 0; at = drainage.receiver(at)) {
-        refuse_if<BadInput>(std::ssize(path) > drainage.direction.cells(), "flow.path_down: water runs in a circle");
+        refuse_if<BadInput>(std::ssize(path) > drainage.direction.cells(), "flow.path_down", "water runs in a circle");
         if (std::ssize(path) % cells_between_checks == 0) {
             run.check();
         }

@@ -42,7 +42,7 @@ Raster<double> lengths_to_outlet(FlowField const& drainage, Run const& run) {
 
 Raster<float> heights_above_rivers(Raster<float> const& dem, std::vector<RiverCell> const& rivers,
                                    FlowField const& drainage, Run const& run) {
-    require_same_grid(dem.grid(), drainage.grid(), "flow.heights_above_rivers: the DEM and its drainage",
+    require_same_grid(dem.grid(), drainage.grid(), "flow.heights_above_rivers", "the DEM and its drainage",
                       "drain this DEM");
     Raster<std::int32_t> const met = first_met(rivers, drainage, run);
     Raster<float> heights(dem.grid(), std::numeric_limits<float>::quiet_NaN());

@@ -151,8 +151,8 @@ std::vector<Depression> take_depressions(Raster<float> const& dem, Raster<float>
 /// The sinks, ascending.
 Sinks sinks_of(Raster<float> const& dem, std::vector<std::int64_t> sinks) {
     for (std::int64_t const sink : sinks) {
-        refuse_if<BadInput>(sink < 0 || sink >= dem.cells() || std::isnan(dem[sink]),
-                            "flow.route: the sink in cell {} has no height; give cells of the DEM", sink);
+        refuse_if<BadInput>(sink < 0 || sink >= dem.cells() || std::isnan(dem[sink]), "flow.route",
+                            "the sink in cell {} has no height; give cells of the DEM", sink);
     }
     std::sort(sinks.begin(), sinks.end());
     return sinks;
@@ -208,15 +208,15 @@ FlowField route(Raster<float> const& dem, Run const& run) {
 
 FlowField route(Raster<float> const& dem, std::vector<std::int64_t> const& sinks, Run const& run) {
     Grid const& grid = dem.grid();
-    refuse_if<BadInput>(grid.cells() == 0, "flow.route: the DEM has no cells");
+    refuse_if<BadInput>(grid.cells() == 0, "flow.route", "the DEM has no cells");
     require_countable(grid, "flow.route");
     auto const values = dem.values();
     auto const infinite = std::find_if(values.begin(), values.end(), [](float z) { return std::isinf(z); });
     if (infinite != values.end()) {
         Cell const cell = grid.at(infinite - values.begin());
-        throw BadInput(
-            fmt::format("flow.route: the height at column {}, row {} is infinite; mark cells without data as NaN",
-                        cell.col, cell.row));
+        throw BadInput("flow.route",
+                       fmt::format("the height at column {}, row {} is infinite; mark cells without data as NaN",
+                                   cell.col, cell.row));
     }
     Sinks const ends = sinks_of(dem, sinks);
     auto downhill = all_downhill(dem, ends, run);

@@ -21,7 +21,7 @@ namespace {
 constexpr float no_height = std::numeric_limits<float>::quiet_NaN();
 
 [[noreturn]] void refuse(std::string const& why) {
-    throw BadInput(fmt::format("flow.route_dinf: {}; take the drainage of this DEM", why));
+    throw BadInput("flow.route_dinf", fmt::format("{}; take the drainage of this DEM", why));
 }
 
 /// Computes the filled levels of the framed DEM from the outlets upstream.
@@ -190,7 +190,7 @@ Raster<double> accumulate(Raster<float> const& bearing, Run const& run) {
 
 DinfFlow route_dinf(Raster<float> const& dem, FlowField const& d8, Run const& run) {
     Grid const& grid = dem.grid();
-    require_same_grid(grid, d8.direction.grid(), "flow.route_dinf: the DEM and its directions", "route this DEM");
+    require_same_grid(grid, d8.direction.grid(), "flow.route_dinf", "the DEM and its directions", "route this DEM");
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
         Direction const way = d8.direction[i];
         bool const any = way == Direction::leaves || goes_on(way);

@@ -132,9 +132,8 @@ Fractal estimate_fractal(Raster<float> const& dem, EstimateParams const& params,
         for (std::int64_t row = first; row < last; ++row) {
             run.check();
             for (float const z : dem.row(row)) {
-                refuse_if<BadInput>(std::isinf(z),
-                                    "fractal.estimate_fractal: a height in row {} is infinite; make it finite, or NaN "
-                                    "where nothing is known",
+                refuse_if<BadInput>(std::isinf(z), "fractal.estimate_fractal",
+                                    "a height in row {} is infinite; make it finite, or NaN where nothing is known",
                                     row);
             }
             rows[row] = sums_of_row(dem, all, row, params.differences);
@@ -153,11 +152,9 @@ Fractal estimate_fractal(Raster<float> const& dem, CellWindow const& window, Est
     bool const is_inside = window.col >= 0 && window.row >= 0 && window.width >= 0 && window.height >= 0 &&
                            window.col <= dem.width() && window.width <= dem.width() - window.col &&
                            window.row <= dem.height() && window.height <= dem.height() - window.row;
-    refuse_if<BadInput>(
-        !is_inside,
-        "fractal.estimate_fractal: the window of {} x {} cells from column {}, row {} leaves the raster of "
-        "{} x {}",
-        window.width, window.height, window.col, window.row, dem.width(), dem.height());
+    refuse_if<BadInput>(!is_inside, "fractal.estimate_fractal",
+                        "the window of {} x {} cells from column {}, row {} leaves the raster of {} x {}", window.width,
+                        window.height, window.col, window.row, dem.width(), dem.height());
     Sums sums;
     for (std::int64_t row = window.row; row < window.row + window.height; ++row) {
         Sums const one = sums_of_row(dem, window, row, params.differences);

@@ -36,14 +36,13 @@ void check_extreme(Raster<float> const& dem, char const* what, std::optional<Fix
         return;
     }
     Cell const cell = extreme->cell;
-    refuse_if<BadParameter>(!dem.grid().contains(cell),
-                            "fractal.match_statistics: the {} at column {}, row {} lies off the grid of {} x {} cells; "
-                            "columns and rows count from 0",
-                            what, cell.col, cell.row, dem.width(), dem.height());
     refuse_if<BadParameter>(
-        std::isnan(dem[cell]),
-        "fractal.match_statistics: the {} at column {}, row {} lies in a hole; give a cell with data", what, cell.col,
-        cell.row);
+        !dem.grid().contains(cell), "fractal.match_statistics",
+        "the {} at column {}, row {} lies off the grid of {} x {} cells; columns and rows count from 0", what, cell.col,
+        cell.row, dem.width(), dem.height());
+    refuse_if<BadParameter>(std::isnan(dem[cell]), "fractal.match_statistics",
+                            "the {} at column {}, row {} lies in a hole; give a cell with data", what, cell.col,
+                            cell.row);
     check_range(what, extreme->z, -1e9, 1e9, "m");
 }
 
@@ -413,10 +412,10 @@ void check(Raster<float> const& dem, MatchParams const& params) {
     require_in("fractal.match_statistics", "gap", params.gap_m, Range::above(0.0).or_infinite(), "m");
     auto const values = dem.values();
     if (std::any_of(values.begin(), values.end(), [](float z) { return std::isinf(z); })) {
-        throw BadInput("fractal.match_statistics: a height is infinite; mark cells without data as NaN");
+        throw BadInput("fractal.match_statistics", "a height is infinite; mark cells without data as NaN");
     }
     if (std::all_of(values.begin(), values.end(), [](float z) { return std::isnan(z); })) {
-        throw BadInput(fmt::format("fractal.match_statistics: none of the {} cells has a height", dem.cells()));
+        throw BadInput("fractal.match_statistics", fmt::format("none of the {} cells has a height", dem.cells()));
     }
 }
 
@@ -609,17 +608,16 @@ void check_targets(Raster<float> const& dem, Targets const& targets) {
     double const max = targets.max ? targets.max->z : infinity;
     double const min = targets.min ? targets.min->z : -infinity;
     if (targets.max && targets.min && targets.max->cell == targets.min->cell) {
-        throw BadParameter(
-            fmt::format("fractal.match_statistics: the highest and the lowest point are both at column {}, row {}",
-                        targets.max->cell.col, targets.max->cell.row));
+        throw BadParameter("fractal.match_statistics",
+                           fmt::format("the highest and the lowest point are both at column {}, row {}",
+                                       targets.max->cell.col, targets.max->cell.row));
     }
-    refuse_if<BadParameter>(
-        !(min < max), "fractal.match_statistics: the lowest point of {} m is not below the highest of {} m", min, max);
+    refuse_if<BadParameter>(!(min < max), "fractal.match_statistics",
+                            "the lowest point of {} m is not below the highest of {} m", min, max);
     if (targets.mean && !(min < *targets.mean && *targets.mean < max)) {
-        throw BadParameter(fmt::format(
-            "fractal.match_statistics: a mean of {} m is not between the lowest point of {} m and the highest "
-            "of {} m",
-            *targets.mean, min, max));
+        throw BadParameter("fractal.match_statistics",
+                           fmt::format("a mean of {} m is not between the lowest point of {} m and the highest of {} m",
+                                       *targets.mean, min, max));
     }
     if (!targets.max || !targets.min) {
         return;
@@ -627,10 +625,11 @@ void check_targets(Raster<float> const& dem, Targets const& targets) {
     double const mean = targets.mean.value_or((max + min) / 2.0); // the bound is widest there
     double const most = std::sqrt((max - mean) * (mean - min));
     if (targets.std && *targets.std > most) {
-        throw BadParameter(fmt::format(
-            "fractal.match_statistics: heights between {} m and {} m{} cannot have a deviation of {} m; the most "
-            "is {:.3f} m (Bhatia and Davis)",
-            min, max, targets.mean ? fmt::format(" with a mean of {} m", mean) : "", *targets.std, most));
+        throw BadParameter("fractal.match_statistics",
+                           fmt::format("heights between {} m and {} m{} cannot have a deviation of {} m; the most is "
+                                       "{:.3f} m (Bhatia and Davis)",
+                                       min, max, targets.mean ? fmt::format(" with a mean of {} m", mean) : "",
+                                       *targets.std, most));
     }
 }
 
@@ -641,15 +640,16 @@ std::vector<FixedHeight> kept_heights(Raster<float> const& dem, Targets const& t
     auto const keep = [&](FixedHeight const& one) {
         Cell const cell = one.cell;
         refuse_if<BadInput>(!dem.grid().contains(cell) || std::isnan(dem[cell]) || !std::isfinite(one.z),
-                            "fractal.match_statistics: the fixed height of {} m at column {}, row {} is not finite, or "
-                            "lies off the grid or in a hole; leave it out",
+                            "fractal.match_statistics",
+                            "the fixed height of {} m at column {}, row {} is not finite, or lies off the grid or in a "
+                            "hole; leave it out",
                             one.z, cell.col, cell.row);
         auto const [at, fresh] = seen.emplace(dem.grid().index(cell), one.z);
         if (fresh) {
             kept.push_back(one);
         } else if (at->second != one.z) {
-            throw BadInput(fmt::format("fractal.match_statistics: the cell at column {}, row {} has two target "
-                                       "heights, {} m and {} m; give one",
+            throw BadInput("fractal.match_statistics",
+                           fmt::format("the cell at column {}, row {} has two target heights, {} m and {} m; give one",
                                        cell.col, cell.row, at->second, one.z));
         }
     };
@@ -659,9 +659,8 @@ std::vector<FixedHeight> kept_heights(Raster<float> const& dem, Targets const& t
         }
     }
     std::for_each(fixed.begin(), fixed.end(), keep);
-    refuse_if<BadInput>(kept.size() > most_fixed,
-                        "fractal.match_statistics: {} heights are fixed; at most {} can be kept, so thin them out",
-                        kept.size(), most_fixed);
+    refuse_if<BadInput>(kept.size() > most_fixed, "fractal.match_statistics",
+                        "{} heights are fixed; at most {} can be kept, so thin them out", kept.size(), most_fixed);
     return kept;
 }
 
@@ -687,11 +686,11 @@ MatchedDem match_statistics(Raster<float> const& dem, Targets const& targets, st
 Raster<float> with_fine_forms(Raster<float> const& land, Raster<float> const& fine, double cells, Run const& run) {
     require_in("fractal.with_fine_forms", "window", cells, {0.0, 1000.0, false, true}, "cells");
     auto const finite = [](float z) { return std::isfinite(z); };
-    require_same_grid(land.grid(), fine.grid(), "fractal.with_fine_forms: the DEM and its fine forms",
+    require_same_grid(land.grid(), fine.grid(), "fractal.with_fine_forms", "the DEM and its fine forms",
                       "give two complete DEMs on one grid");
     refuse_if<BadInput>(!std::all_of(land.values().begin(), land.values().end(), finite) ||
                             !std::all_of(fine.values().begin(), fine.values().end(), finite),
-                        "fractal.with_fine_forms: heights that are not finite; give two complete DEMs");
+                        "fractal.with_fine_forms", "heights that are not finite; give two complete DEMs");
     Raster<double> const means = difference_of_means(land, fine, cells, run);
     Raster<float> out(land.grid());
     for (std::int64_t i = 0; i < out.cells(); ++i) {

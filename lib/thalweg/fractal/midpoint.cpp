@@ -134,9 +134,9 @@ std::vector<Cell> cells_with_heights(Raster<float> const& coarse) {
             cells.push_back(coarse.grid().at(i));
         }
     }
-    refuse_if<BadParameter>(static_cast<std::int64_t>(cells.size()) > most_conditioning_cells,
-                            "fractal.midpoint: {} coarse cells have heights (detail.stencil = \"exact\" takes up to "
-                            "{}); choose more levels (detail.levels) from fewer coarse cells, or detail.stencil = 16",
+    refuse_if<BadParameter>(static_cast<std::int64_t>(cells.size()) > most_conditioning_cells, "fractal.midpoint",
+                            "{} coarse cells have heights (detail.stencil = \"exact\" takes up to {}); choose more "
+                            "levels (detail.levels) from fewer coarse cells, or detail.stencil = 16",
                             cells.size(), most_conditioning_cells);
     return cells;
 }
@@ -287,36 +287,37 @@ constexpr std::int64_t longest_side = std::int64_t{1} << 40;
 
 void check_params(MidpointParams const& params) {
     require_in("fractal.midpoint", "levels", params.levels, Range::between(0, most_levels));
-    refuse_if<BadParameter>(params.width < 0 || params.height < 0,
-                            "fractal.midpoint: a result of {} x {} cells; give a width and height above 0, or 0 for "
-                            "all the coarse raster covers",
-                            params.width, params.height);
+    refuse_if<BadParameter>(
+        params.width < 0 || params.height < 0, "fractal.midpoint",
+        "a result of {} x {} cells; give a width and height above 0, or 0 for all the coarse raster covers",
+        params.width, params.height);
     if (params.hurst) {
         require_in("fractal.midpoint", "H", *params.hurst, Range::between(least_hurst, greatest_hurst));
     }
     if (params.sigma) {
         require_in("fractal.midpoint", "sigma", *params.sigma, Range::between(0.0, greatest_height_m), "m");
     }
-    refuse_if<BadParameter>(
-        params.stencil == Stencil::exact && params.noise != Noise::normal,
-        "fractal.midpoint: the exact surface has normal increments only; choose normal noise, or a stencil of 16");
-    refuse_if<BadParameter>(
-        params.stencil == Stencil::exact && params.adaptation != Adaptation::global,
-        "fractal.midpoint: the exact surface has one H and one sigma; choose global adaptation, or a stencil of 16");
+    refuse_if<BadParameter>(params.stencil == Stencil::exact && params.noise != Noise::normal, "fractal.midpoint",
+                            "the exact surface has normal increments only; choose normal noise, or a stencil of 16");
+    refuse_if<BadParameter>(params.stencil == Stencil::exact && params.adaptation != Adaptation::global,
+                            "fractal.midpoint",
+                            "the exact surface has one H and one sigma; choose global adaptation, or a stencil of 16");
 }
 
 /// Throws if there is no height; returns whether there are holes.
 bool check_heights(Raster<float> const& coarse) {
-    refuse_if<BadInput>(coarse.cells() == 0, "fractal.midpoint: the coarse raster has no cells; give one at least");
+    refuse_if<BadInput>(coarse.cells() == 0, "fractal.midpoint", "the coarse raster has no cells; give one at least");
     bool holes = false;
     for (std::int64_t i = 0; i < coarse.cells(); ++i) {
         double const z = static_cast<double>(coarse[i]);
         holes = holes || std::isnan(z);
         if (std::fabs(z) > greatest_height_m) {
             Cell const c = coarse.grid().at(i);
-            throw BadInput(fmt::format("fractal.midpoint: the height of column {}, row {} is {} m; give heights up to "
-                                       "{} m, or NaN where nothing is known",
-                                       c.col, c.row, z, greatest_height_m));
+            throw BadInput(
+                "fractal.midpoint",
+                fmt::format(
+                    "the height of column {}, row {} is {} m; give heights up to {} m, or NaN where nothing is known",
+                    c.col, c.row, z, greatest_height_m));
         }
     }
     return holes;
@@ -328,19 +329,18 @@ std::int64_t coarse_cells(std::int64_t cells, int levels) {
 
 Grid result_grid(Grid const& coarse, MidpointParams const& params) {
     std::int64_t const longest = std::max(coarse.width, coarse.height) - 1;
-    refuse_if<BadParameter>(
-        longest > longest_side >> params.levels,
-        "fractal.midpoint: {} x {} coarse cells halved {} times are more than 2^40 in a row; choose fewer levels",
-        coarse.width, coarse.height, params.levels);
+    refuse_if<BadParameter>(longest > longest_side >> params.levels, "fractal.midpoint",
+                            "{} x {} coarse cells halved {} times are more than 2^40 in a row; choose fewer levels",
+                            coarse.width, coarse.height, params.levels);
     std::int64_t const all_cols = ((coarse.width - 1) << params.levels) + 1;
     std::int64_t const all_rows = ((coarse.height - 1) << params.levels) + 1;
     Grid grid = coarse;
     grid.width = params.width > 0 ? params.width : all_cols;
     grid.height = params.height > 0 ? params.height : all_rows;
     if (grid.width > all_cols || grid.height > all_rows) {
-        throw BadParameter(fmt::format("fractal.midpoint: {} x {} coarse cells cover {} x {} cells at {} levels, and "
-                                       "{} x {} are asked for; give a "
-                                       "coarse raster of at least {} columns and {} rows",
+        throw BadParameter("fractal.midpoint",
+                           fmt::format("{} x {} coarse cells cover {} x {} cells at {} levels, and {} x {} are asked "
+                                       "for; give a coarse raster of at least {} columns and {} rows",
                                        coarse.width, coarse.height, all_cols, all_rows, params.levels, grid.width,
                                        grid.height, coarse_cells(grid.width, params.levels),
                                        coarse_cells(grid.height, params.levels)));

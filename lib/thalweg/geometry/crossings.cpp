@@ -149,7 +149,7 @@ private:
 
 void add_boxes(std::vector<Vec2> const& line, std::uint32_t number, std::vector<Box>& boxes) {
     for (std::size_t v = 0; v < line.size(); ++v) {
-        refuse_if<BadInput>(!is_finite(line[v]), "geometry.crossings: vertex {} of line {} is not finite", v, number);
+        refuse_if<BadInput>(!is_finite(line[v]), "geometry.crossings", "vertex {} of line {} is not finite", v, number);
     }
     std::size_t const before = boxes.size();
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
@@ -411,7 +411,7 @@ std::vector<Crossing> crossings(Lines const& lines, Run const& run) {
 }
 
 std::vector<Meeting> meetings(Lines const& lines, std::vector<EndNodes> const& nodes, Run const& run) {
-    refuse_if<BadInput>(nodes.size() != lines.size(), "geometry.meetings: {} polylines but nodes of {}", lines.size(),
+    refuse_if<BadInput>(nodes.size() != lines.size(), "geometry.meetings", "{} polylines but nodes of {}", lines.size(),
                         nodes.size());
     std::vector<Meeting> found;
     auto const add = [&](LineSegment s, LineSegment t) {

@@ -237,12 +237,11 @@ std::vector<std::pair<Around, LabelMesh::Face_handle>> faces_of(LabelMesh const&
 } // namespace
 
 LabelledSites sites_of(std::vector<LabelledLine> const& lines, Bounds const& bounds, Parts parts,
-                       std::string const& what) {
-    refuse_if<BadParameter>(!(bounds.west < bounds.east) || !(bounds.south < bounds.north) ||
-                                !std::isfinite(bounds.east - bounds.west) ||
-                                !std::isfinite(bounds.north - bounds.south),
-                            "{}: bounds from ({}, {}) to ({}, {}) have no area", what, bounds.west, bounds.south,
-                            bounds.east, bounds.north);
+                       std::string const& where) {
+    refuse_if<BadParameter>(
+        !(bounds.west < bounds.east) || !(bounds.south < bounds.north) || !std::isfinite(bounds.east - bounds.west) ||
+            !std::isfinite(bounds.north - bounds.south),
+        where, "bounds from ({}, {}) to ({}, {}) have no area", bounds.west, bounds.south, bounds.east, bounds.north);
     LabelledSites out;
     Bounds all = bounds;
     std::map<std::pair<double, double>, std::size_t> point_at;
@@ -251,7 +250,7 @@ LabelledSites sites_of(std::vector<LabelledLine> const& lines, Bounds const& bou
         auto& chain = chains.emplace_back();
         for (std::size_t v = 0; v < lines[l].line.size(); ++v) {
             Vec2 const p{lines[l].line[v].x + 0.0, lines[l].line[v].y + 0.0};
-            refuse_if<BadInput>(!is_finite(p), "{}: vertex {} of line {} is not finite; remove it", what, v, l);
+            refuse_if<BadInput>(!is_finite(p), where, "vertex {} of line {} is not finite; remove it", v, l);
             auto const [place, is_new] = point_at.try_emplace({p.x, p.y}, out.sites.size());
             if (is_new) {
                 out.sites.push_back({l, v, p, p});

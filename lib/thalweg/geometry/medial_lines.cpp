@@ -168,10 +168,10 @@ void require_vertices_where_lines_meet(std::vector<LabelledLine> const& lines, R
         drawn.push_back(line.line);
     }
     for (auto const& c : crossings(drawn, run)) {
-        refuse_if<BadInput>(c.at != drawn[c.line][c.segment] && c.at != drawn[c.line][c.segment + 1],
-                            "geometry.medial_lines: line {} meets another at ({:.6f}, {:.6f}), away from its vertices; "
-                            "cut the lines where they meet",
-                            c.line, c.at.x, c.at.y);
+        refuse_if<BadInput>(
+            c.at != drawn[c.line][c.segment] && c.at != drawn[c.line][c.segment + 1], "geometry.medial_lines",
+            "line {} meets another at ({:.6f}, {:.6f}), away from its vertices; cut the lines where they meet", c.line,
+            c.at.x, c.at.y);
     }
 }
 

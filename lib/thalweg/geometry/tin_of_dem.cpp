@@ -560,13 +560,12 @@ private:
 
 void require_sound(Raster<float> const& dem, TinOfDemParams const& params) {
     require_in("geometry.tin_of_dem", "error", params.error_m, Range::above(0.0).or_infinite(), "m");
-    refuse_if<BadInput>(dem.width() > most_cells_a_side || dem.height() > most_cells_a_side,
-                        "geometry.tin_of_dem: {} x {} cells: at most {} a side; cut the DEM", dem.width(), dem.height(),
-                        most_cells_a_side);
+    refuse_if<BadInput>(dem.width() > most_cells_a_side || dem.height() > most_cells_a_side, "geometry.tin_of_dem",
+                        "{} x {} cells: at most {} a side; cut the DEM", dem.width(), dem.height(), most_cells_a_side);
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
         if (std::isinf(dem[i])) {
-            throw BadInput(fmt::format("geometry.tin_of_dem: the height at column {}, row {} is {}",
-                                       dem.grid().at(i).col, dem.grid().at(i).row, dem[i]));
+            throw BadInput("geometry.tin_of_dem", fmt::format("the height at column {}, row {} is {}",
+                                                              dem.grid().at(i).col, dem.grid().at(i).row, dem[i]));
         }
     }
 }
@@ -586,10 +585,9 @@ SimplifiedDem tin_of_dem(Raster<float> const& dem, TinOfDemParams const& params,
         }
     }
     auto const lines = outlines_of(dem, land, run);
-    refuse_if<BadInput>(
-        lines.empty(),
-        "geometry.tin_of_dem: of {} x {} cells {} have data, and no three of them meet: there are no triangles",
-        dem.width(), dem.height(), data);
+    refuse_if<BadInput>(lines.empty(), "geometry.tin_of_dem",
+                        "of {} x {} cells {} have data, and no three of them meet: there are no triangles", dem.width(),
+                        dem.height(), data);
     Mesh mesh(dem, params.error_m, triangulate({}, lines, run).tin, land);
     mesh.refine(run);
     SimplifiedDem simplified = mesh.result();

@@ -106,10 +106,10 @@ template <class Point> std::array<double, 3> of_triangle(Point const& a, Point c
 void require_area(Tin const& tin, std::size_t number, Measured measured) {
     auto const& t = tin.triangles[number];
     for (std::uint32_t const v : t) {
-        refuse_if<BadInput>(v >= tin.vertices.size(), "geometry.half_cotangents: triangle {} has vertex {} of {}",
+        refuse_if<BadInput>(v >= tin.vertices.size(), "geometry.half_cotangents", "triangle {} has vertex {} of {}",
                             number + 1, v + 1, tin.vertices.size());
         Vec3 const& p = tin.vertices[v];
-        refuse_if<BadInput>(!is_finite(p), "geometry.half_cotangents: vertex {} is not finite: ({}, {}, {})", v + 1,
+        refuse_if<BadInput>(!is_finite(p), "geometry.half_cotangents", "vertex {} is not finite: ({}, {}, {})", v + 1,
                             p.x, p.y, p.z);
     }
     Vec3 const& a = tin.vertices[t[0]];
@@ -118,9 +118,9 @@ void require_area(Tin const& tin, std::size_t number, Measured measured) {
     bool const in_plan = (b.x - a.x) * (c.y - a.y) != (c.x - a.x) * (b.y - a.y);
     bool const upright = (b.x - a.x) * (c.z - a.z) != (c.x - a.x) * (b.z - a.z) ||
                          (b.y - a.y) * (c.z - a.z) != (c.y - a.y) * (b.z - a.z);
-    refuse_if<BadInput>(!in_plan && !(upright && measured == Measured::on_surface),
-                        "geometry.half_cotangents: triangle {} at ({}, {}, {}) has no area{}", number + 1, a.x, a.y,
-                        a.z, upright ? " in plan" : "");
+    refuse_if<BadInput>(!in_plan && !(upright && measured == Measured::on_surface), "geometry.half_cotangents",
+                        "triangle {} at ({}, {}, {}) has no area{}", number + 1, a.x, a.y, a.z,
+                        upright ? " in plan" : "");
 }
 
 } // namespace

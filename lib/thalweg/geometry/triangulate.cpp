@@ -50,12 +50,12 @@ struct Places {
 // name: called only for the message.
 template <class Name> void require_finite(Vec3 const& p, Name name) {
     if (!is_finite(p)) {
-        throw BadInput(
-            fmt::format("geometry.triangulate: {} is not finite: ({}, {}, {}); remove it", name(), p.x, p.y, p.z));
+        throw BadInput("geometry.triangulate",
+                       fmt::format("{} is not finite: ({}, {}, {}); remove it", name(), p.x, p.y, p.z));
     }
     if (std::fabs(p.x) > farthest_m || std::fabs(p.y) > farthest_m) {
-        throw BadInput(
-            fmt::format("geometry.triangulate: {} lies at ({}, {}), farther than {} m", name(), p.x, p.y, farthest_m));
+        throw BadInput("geometry.triangulate",
+                       fmt::format("{} lies at ({}, {}), farther than {} m", name(), p.x, p.y, farthest_m));
     }
 }
 
@@ -74,8 +74,8 @@ Places collect(std::vector<Vec3> const& points, std::vector<std::vector<Vec3>> c
             places.at.push_back(breaklines[l][i]);
         }
     }
-    refuse_if<BadInput>(places.at.size() >= unnumbered / 2,
-                        "geometry.triangulate: {} points are more than a TIN can number", places.at.size());
+    refuse_if<BadInput>(places.at.size() >= unnumbered / 2, "geometry.triangulate",
+                        "{} points are more than a TIN can number", places.at.size());
     places.given = places.at.size();
     return places;
 }
@@ -132,8 +132,9 @@ bool cut(Places& places, double& greatest_dz_m, Run const& run) {
 void cut_all(Places& places, double& greatest_dz_m, Run const& run) {
     constexpr int most_rounds = 50;
     for (int round = 0; cut(places, greatest_dz_m, run); ++round) {
-        refuse_if<BadInput>(round == most_rounds, "geometry.triangulate: breaklines still cross after being cut 50 "
-                                                  "times: they lie closer than their coordinates can tell; snap them");
+        refuse_if<BadInput>(round == most_rounds, "geometry.triangulate",
+                            "breaklines still cross after being cut 50 times: they lie closer than their coordinates "
+                            "can tell; snap them");
     }
 }
 
@@ -167,14 +168,13 @@ template <class Mesh> void require_area(Mesh const& mesh, Places const& places) 
         return;
     }
     auto const differ = mesh.number_of_vertices();
-    refuse_if<BadInput>(differ < 3, "geometry.triangulate: {} points in {} different places: a triangulation takes 3",
+    refuse_if<BadInput>(differ < 3, "geometry.triangulate", "{} points in {} different places: a triangulation takes 3",
                         places.at.size(), differ);
     auto const [first, last] =
         std::ranges::minmax_element(places.at, {}, [](Vec3 const& p) { return std::pair(p.x, p.y); });
-    throw BadInput(
-        fmt::format("geometry.triangulate: {} points lie on one line, from ({}, {}) to ({}, {}): there are no "
-                    "triangles",
-                    differ, first->x, first->y, last->x, last->y));
+    throw BadInput("geometry.triangulate",
+                   fmt::format("{} points lie on one line, from ({}, {}) to ({}, {}): there are no triangles", differ,
+                               first->x, first->y, last->x, last->y));
 }
 
 template <class Mesh>
@@ -221,10 +221,10 @@ std::vector<std::uint32_t> chain_of(Bound const& mesh, Bound::Vertex_handle from
                     is_between(from->point(), to->point(), next->point());
         } while (!found && ++next != first);
         if (!found) {
-            throw BadInput(
-                fmt::format("geometry.triangulate: no edges from ({}, {}) to ({}, {}): breaklines lie closer "
-                            "than their coordinates can tell; snap them",
-                            from->point().x(), from->point().y(), to->point().x(), to->point().y()));
+            throw BadInput("geometry.triangulate",
+                           fmt::format("no edges from ({}, {}) to ({}, {}): breaklines lie closer than their "
+                                       "coordinates can tell; snap them",
+                                       from->point().x(), from->point().y(), to->point().x(), to->point().y()));
         }
         from = next;
         chain.push_back(from->info());

@@ -161,7 +161,7 @@ Against compare_with_dem(Raster<float> const& of_file, std::string const& name, 
     Against found;
     found.dem = std::filesystem::path(name).filename().string();
     found.cells = std::ranges::count(compared.values(), 1);
-    refuse_if<BadInput>(found.cells < least_cells,
+    refuse_if<BadInput>(found.cells < least_cells, "make.compare_with_dem",
                         "output.against = \"{}\" has heights in {} cells of the grid that lie eight cells or more from "
                         "its border: {} are needed to compare with. Take a DEM of the same place",
                         name, found.cells, least_cells);

@@ -19,8 +19,8 @@ Raster<float> cut(Raster<float> const& source, blend::SourceWindow const& w, std
     refuse_if<BadInput>(w.col < 0 || w.row < 0 || w.width < 1 || w.height < 1 || w.width > source.width() ||
                             w.height > source.height() || w.col > source.width() - w.width ||
                             w.row > source.height() - w.height,
-                        "make.blend_into: a window of {} x {} cells at column {}, row {} of {}, which has {} x {}; "
-                        "it must lie within",
+                        "make.blend_into",
+                        "a window of {} x {} cells at column {}, row {} of {}, which has {} x {}; it must lie within",
                         w.width, w.height, w.col, w.row, path, source.width(), source.height());
     Grid frame = source.grid();
     frame.west += static_cast<double>(w.col) * frame.cell_m;
@@ -47,7 +47,7 @@ struct PastedSource {
 
 /// The coordinates in which a source is placed on the target.
 Grid frame_for(Grid const& source, Grid const& target, BlendIntoParams const& params, PastedSource& as) {
-    std::string const whose = "make.blend_into: " + params.source.path;
+    std::string const& whose = params.source.path;
     std::string const target_words = "the target " + params.target;
     bool const is_same = io::same_crs(source.crs, target.crs, whose, target_words);
     bool const is_distorted = io::is_distorted(target); // a metre has its local length
@@ -55,11 +55,12 @@ Grid frame_for(Grid const& source, Grid const& target, BlendIntoParams const& pa
         return target;
     }
     if (is_distorted) {
-        throw BadInput(fmt::format("{} does not overlap {}, whose CRS {:.60} has metres of another length there: warp "
+        throw BadInput("make.blend_into",
+                       fmt::format("{} does not overlap {}, whose CRS {:.60} has metres of another length there: warp "
                                    "the target first (gdalwarp -novshift -t_srs {:.60})",
                                    whose, target_words, target.crs, io::ground_cell(target).crs));
     }
-    refuse_if<BadInput>(io::ground_cell(target).unit != io::GridUnit::metres,
+    refuse_if<BadInput>(io::ground_cell(target).unit != io::GridUnit::metres, "make.blend_into",
                         "{} does not overlap {}, whose cells are not in metres, so its size there is unknown: warp the "
                         "target (gdalwarp -novshift -t_srs)",
                         whose, target_words);
@@ -76,7 +77,7 @@ PastedSource read_source(BlendIntoParams const& params, Grid const& grid, Run co
     PastedSource source;
     source.findings = std::move(read.findings);
     Grid const frame = frame_for(dem.grid(), grid, params, source);
-    std::string const what = "make.blend_into: " + params.source.path;
+    std::string const& what = params.source.path;
     source.is_warped =
         !io::same_crs(dem.grid().crs, frame.crs, what, "the target") || !io::same_size(dem.grid(), frame);
     if (!source.is_warped) {
@@ -117,8 +118,9 @@ Vec2 target_middle(Grid const& target, blend::SourceWindow const& w) {
 BlendedDem blend_into(Raster<float> const& target, Mask keep, BlendIntoParams const& params, Run const& run) {
     Grid const& grid = target.grid();
     refuse_if<BadInput>(params.rotate_deg != 0.0 && io::ground_cell(grid).unit == io::GridUnit::degrees,
-                        "make.blend_into: {} is in degrees, so its cells are not square and a patch cannot be "
-                        "rotated: warp it (gdalwarp -novshift -t_srs)",
+                        "make.blend_into",
+                        "{} is in degrees, so its cells are not square and a patch cannot be rotated: warp it "
+                        "(gdalwarp -novshift -t_srs)",
                         params.target);
     PastedSource const source = read_source(params, grid, run);
     blend::PlacePatchParams placing;

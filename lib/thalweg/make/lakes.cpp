@@ -72,7 +72,7 @@ Polygons lake_polygons(recipe::Recipe const& recipe, Grid const& grid, Run const
     std::string const& path = recipe.surface->equilibrium.lakes;
     Polygons polygons = io::read_polygons_valued(recipe::file_in(recipe, path), grid.crs, "level", run);
     for (Polygon const& lake : polygons.polygons) {
-        refuse_if<BadInput>(std::fabs(lake.value) > most_m,
+        refuse_if<BadInput>(std::fabs(lake.value) > most_m, "make.make_terrain",
                             "surface.lakes = \"{}\": feature {} has the level {} m, which is not from {} to {} m", path,
                             lake.feature, lake.value, -most_m, most_m);
     }

@@ -131,7 +131,7 @@ DemLaws laws_of_dem(Raster<float> const& dem, flow::FlowField const& drainage, R
     auto const ways = drainage.direction.values();
     auto const land =
         std::count_if(ways.begin(), ways.end(), [](flow::Direction d) { return d != flow::Direction::no_data; });
-    refuse_if<BadInput>(land == 0, "make.laws_of_dem: no cell of the DEM has data");
+    refuse_if<BadInput>(land == 0, "make.laws_of_dem", "no cell of the DEM has data");
     DemLaws found;
     found.as_dense = params.network_m > 0.0;
     found.support_cells =
@@ -181,7 +181,7 @@ RiverLaws laws_of_terrain(Terrain const& terrain, std::int64_t land_cells, Run c
 
 LineLaws laws_of_lines(MeasuredRivers const& rivers) {
     StreamNetwork const& plan = rivers.network.planform;
-    refuse_if<BadInput>(plan.arc_count() == 0, "make.laws_of_lines: the network has no arcs");
+    refuse_if<BadInput>(plan.arc_count() == 0, "make.laws_of_lines", "the network has no arcs");
     LineLaws found;
     found.streams = network::count_streams(plan);
     found.arcs = static_cast<std::int64_t>(plan.arc_count());

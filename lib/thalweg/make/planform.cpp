@@ -262,7 +262,7 @@ DrawnRivers drawn(RiversInput const& in, Run const& run) {
     RiversToBorder carried = with_outlets_carried(wanted, std::move(kept.network), source.grid, std::move(source.land),
                                                   source.file_heights.has_value(), run);
     stage_log.find(carried.notes);
-    refuse_if<BadParameter>(recipe::stage::meander.runs(in.recipe) && source.file_heights,
+    refuse_if<BadParameter>(recipe::stage::meander.runs(in.recipe) && source.file_heights, "make.make_planform",
                             "network.meander cannot bend rivers whose heights come from their "
                             "file; set network.heights = \"graded\" or leave meander out");
     BentRivers rivers =

@@ -138,6 +138,7 @@ Region inside(Polygons const& polygons, recipe::Side mouth) {
             rings += polygon.rings.size();
         }
         throw BadInput(
+            "make.make_planform",
             fmt::format("network.tokunaga.region = \"{}\" holds {} polygons of {} rings; a network fills one "
                         "without holes",
                         polygons.name, polygons.polygons.size(), rings));
@@ -174,7 +175,8 @@ void judge_room(std::int64_t placed, std::int64_t dropped, Grid const& grid, Sta
     std::int64_t const all = placed + dropped;
     std::string const found =
         fmt::format("{} of {} links found no room on {} x {} cells", dropped, all, grid.width, grid.height);
-    refuse_if<BadInput>(2 * placed < all || placed == 0, "[network.tokunaga]: {}: {}", found, recipe::more_room);
+    refuse_if<BadInput>(2 * placed < all || placed == 0, "make.make_planform", "[network.tokunaga]: {}: {}", found,
+                        recipe::more_room);
     if (10 * placed < 9 * all) {
         stage_log.find({.kind = "links_without_room",
                         .amount = static_cast<double>(dropped),

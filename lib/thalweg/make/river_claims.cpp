@@ -231,9 +231,8 @@ FileReaches reaches_of_file(NetworkFile const& file, Grid const& grid) {
             result.reaches.push_back({{}, -1, arc.id});
             first_arc.push_back(i);
         } else if (file.arcs[first_arc[static_cast<std::size_t>(place->second)]].ds_arc != arc.ds_arc) {
-            throw BadInput(fmt::format("make.reaches_of_file: arcs of the id {} run into several; see what thalweg "
-                                       "check says",
-                                       arc.id));
+            throw BadInput("make.reaches_of_file",
+                           fmt::format("arcs of the id {} run into several; see what thalweg check says", arc.id));
         }
         auto& lines = result.reaches[static_cast<std::size_t>(place->second)].lines;
         auto parts = parts_in(arc.line, grid);
@@ -249,16 +248,15 @@ FileReaches reaches_of_file(NetworkFile const& file, Grid const& grid) {
     try {
         flow::steps_to_outlet(result.reaches);
     } catch (BadInput const& cycle) {
-        throw BadInput(std::string("make.reaches_of_file: ") + cycle.what());
+        throw BadInput("make.reaches_of_file", cycle.what());
     }
     for (std::size_t i = 0; i < result.reaches.size(); ++i) {
         bool const none = result.reaches[i].lines.empty();
         result.outside += none ? 1 : 0;
         result.cut += leaves[i] && !none ? 1 : 0;
     }
-    refuse_if<BadInput>(result.outside == static_cast<std::int64_t>(result.reaches.size()),
-                        "make.reaches_of_file: none of {} arcs lies on the DEM, which reaches from ({:.3f}, "
-                        "{:.3f}) to ({:.3f}, {:.3f})",
+    refuse_if<BadInput>(result.outside == static_cast<std::int64_t>(result.reaches.size()), "make.reaches_of_file",
+                        "none of {} arcs lies on the DEM, which reaches from ({:.3f}, {:.3f}) to ({:.3f}, {:.3f})",
                         file.arcs.size(), grid.west, grid.south(), grid.east(), grid.north);
     result.basins = basins_of(file, result.reaches, first_arc);
     return result;

@@ -60,6 +60,7 @@ float height_below_river(Raster<float> const& dem, CellIndex cell, std::string c
     if (std::isnan(dem[cell])) {
         Vec2 const at = dem.grid().centre(dem.grid().at(cell));
         throw BadInput(
+            "make.make_terrain",
             fmt::format("surface.source = \"{}\" has no height at ({:.1f}, {:.1f}), where a river runs: "
                         "set grid.clip = true, which cuts rivers where the DEM has no data, or fill the hole "
                         "(gdal_fillnodata.py)",

@@ -55,11 +55,11 @@ void check_detail(Recipe const& recipe, std::int64_t width, std::int64_t height)
     while (enough <= most_levels && coarse_cells(enough) > fractal::most_conditioning_cells) {
         ++enough;
     }
-    throw BadParameter(
-        fmt::format("recipe.check_detail: detail.stencil = \"exact\" takes up to {} coarse cells, and {} x {} cells at "
-                    "detail.levels = {} have {}; set {}detail.stencil = 16",
-                    fractal::most_conditioning_cells, width, height, levels, coarse_cells(levels),
-                    enough <= most_levels ? fmt::format("detail.levels = {}, or ", enough) : ""));
+    throw BadParameter("recipe.check_detail",
+                       fmt::format("detail.stencil = \"exact\" takes up to {} coarse cells, and {} x {} cells at "
+                                   "detail.levels = {} have {}; set {}detail.stencil = 16",
+                                   fractal::most_conditioning_cells, width, height, levels, coarse_cells(levels),
+                                   enough <= most_levels ? fmt::format("detail.levels = {}, or ", enough) : ""));
 }
 
 namespace {
@@ -279,7 +279,7 @@ void refuse_unused_keys(Recipe const& resolved) {
         }
     }
     if (!faults.empty()) {
-        throw BadParameter(fmt::format("recipe: {}", fmt::join(faults, "\nrecipe: ")));
+        throw BadParameter("recipe.refuse_unused_keys", fmt::format("recipe: {}", fmt::join(faults, "\nrecipe: ")));
     }
 }
 
@@ -301,7 +301,7 @@ void check_recipe(Recipe const& recipe) {
     check_use(recipe, faults);
     check_cells_of_detail(recipe, faults);
     if (!faults.empty()) {
-        throw BadParameter(fmt::format("recipe.check_recipe: {}", fmt::join(faults, "\n")));
+        throw BadParameter("recipe.check_recipe", fmt::format("{}", fmt::join(faults, "\n")));
     }
 }
 

@@ -53,7 +53,7 @@ Box box_of(Polygons const& polygons) {
 }
 
 /// The requested grid, or a box and 5 % around it on multiples of the cell. what: "the rivers of walker.gpkg".
-Grid frame_box(Box const& box, GridRecipe const& wanted, std::string const& what) {
+Grid frame_box(Box const& box, GridRecipe const& wanted, char const* where, std::string const& what) {
     double const cell = wanted.cell_m;
     auto const snapped_down = [cell](double v) { return std::floor(v / cell) * cell; };
     double const margin = std::max(0.05 * std::max(box.east - box.west, box.north - box.south), 2.0 * cell);
@@ -77,10 +77,10 @@ Grid frame_box(Box const& box, GridRecipe const& wanted, std::string const& what
     if (wanted.width == 0) {
         double const width = std::ceil((box.east + margin - grid.west) / cell);
         double const height = std::ceil((grid.north - (box.south - margin)) / cell);
-        refuse_if<BadInput>(!(width >= 1.0 && height >= 1.0),
+        refuse_if<BadInput>(!(width >= 1.0 && height >= 1.0), where,
                             "grid.origin = [{}, {}] lies beyond {} (west {:.0f}, north {:.0f})", grid.west, grid.north,
                             what, box.west, box.north);
-        refuse_if<BadInput>(width > 1e6 || height > 1e6,
+        refuse_if<BadInput>(width > 1e6 || height > 1e6, where,
                             "grid: {} span {:.0f} x {:.0f} cells of {} m: give a larger grid.cell", what, width, height,
                             cell);
         grid.width = static_cast<std::int64_t>(width);
@@ -91,18 +91,18 @@ Grid frame_box(Box const& box, GridRecipe const& wanted, std::string const& what
 }
 
 /// Throws BadInput if a position lies outside the grid. what: "river 7 in walker.gpkg".
-void require_inside(Grid const& grid, double x, double y, std::string const& what) {
-    refuse_if<BadInput>(!(x >= grid.west && x <= grid.east() && y >= grid.south() && y <= grid.north),
+void require_inside(Grid const& grid, double x, double y, char const* where, std::string const& what) {
+    refuse_if<BadInput>(!(x >= grid.west && x <= grid.east() && y >= grid.south() && y <= grid.north), where,
                         "grid: {} runs outside the grid at ({:.1f}, {:.1f}): the grid spans {:.1f} to {:.1f} east and "
                         "{:.1f} to {:.1f} north. Enlarge it, leave width and height out, or set grid.clip = true.",
                         what, x, y, grid.west, grid.east(), grid.south(), grid.north);
 }
 
 /// Throws BadInput if this much memory is not free.
-void require(std::string const& what, std::int64_t bytes, char const* advice) {
+void require(char const* where, std::string const& what, std::int64_t bytes, char const* advice) {
     if (std::int64_t const free = free_memory_bytes(); bytes > free) {
-        throw BadInput(fmt::format("{} need {:.1f} GB; {:.1f} GB are free. {}", what, static_cast<double>(bytes) / 1e9,
-                                   static_cast<double>(free) / 1e9, advice));
+        throw BadInput(where, fmt::format("{} need {:.1f} GB; {:.1f} GB are free. {}", what,
+                                          static_cast<double>(bytes) / 1e9, static_cast<double>(free) / 1e9, advice));
     }
 }
 
@@ -114,6 +114,7 @@ struct Vertex {
 
 [[noreturn]] void refuse(Vertex const& stray, double gap_m, RiverLines const& lines) {
     throw BadInput(
+        "recipe.require_no_stray_vertex",
         fmt::format("grid: river {} in {} has a vertex at ({:.1f}, {:.1f}), {:.0f} km from the others, so that "
                     "a grid around all would be empty for the most part: correct it, or set grid.width, "
                     "grid.height and grid.clip = true",
@@ -142,15 +143,16 @@ std::int64_t bytes_needed(std::int64_t cells) {
 }
 
 void check_memory(std::int64_t width, std::int64_t height) {
-    require(fmt::format("grid: {}x{} cells", width, height), bytes_needed(width * height), // sides are at most 1e6 each
+    require("recipe.check_memory", fmt::format("grid: {}x{} cells", width, height),
+            bytes_needed(width * height), // sides are at most 1e6 each
             "Make grid.width and grid.height smaller or grid.cell larger.");
 }
 
 void check_memory_of_cluster(std::int64_t particles) {
     // cell 16, parent 8, its register 10; the fields around it are about twenty bytes a particle at S = 1
     constexpr std::int64_t bytes_a_particle = 60;
-    require(fmt::format("[network.dla]: {} particles", particles), particles * bytes_a_particle,
-            "Make network.dla.particles smaller.");
+    require("recipe.check_memory_of_cluster", fmt::format("[network.dla]: {} particles", particles),
+            particles * bytes_a_particle, "Make network.dla.particles smaller.");
 }
 
 std::int64_t room_for_network(std::int64_t side_cells) {
@@ -196,11 +198,12 @@ Grid frame_lines(RiverLines const& lines, GridRecipe const& wanted) {
     if (wanted.width == 0) {
         require_no_stray_vertex(lines);
     }
-    Grid const grid = frame_box(box_of(lines), here, "the rivers of " + lines.name);
+    Grid const grid = frame_box(box_of(lines), here, "recipe.frame_lines", "the rivers of " + lines.name);
     if (!wanted.clip) {
         for (RiverLine const& line : lines.lines) {
             for (Vec3 const& p : line.vertices) {
-                require_inside(grid, p.x, p.y, fmt::format("river {} in {}", line.feature, lines.name));
+                require_inside(grid, p.x, p.y, "recipe.frame_lines",
+                               fmt::format("river {} in {}", line.feature, lines.name));
             }
         }
     }
@@ -208,14 +211,15 @@ Grid frame_lines(RiverLines const& lines, GridRecipe const& wanted) {
 }
 
 Grid frame_polygons(Polygons const& polygons, GridRecipe const& wanted) {
-    Grid const grid = frame_box(box_of(polygons), wanted, "the polygons of " + polygons.name);
+    Grid const grid = frame_box(box_of(polygons), wanted, "recipe.frame_polygons", "the polygons of " + polygons.name);
     if (wanted.clip) {
         return grid;
     }
     for (Polygon const& polygon : polygons.polygons) {
         for (auto const& ring : polygon.rings) {
             for (Vec2 const p : ring) {
-                require_inside(grid, p.x, p.y, fmt::format("polygon {} in {}", polygon.feature, polygons.name));
+                require_inside(grid, p.x, p.y, "recipe.frame_polygons",
+                               fmt::format("polygon {} in {}", polygon.feature, polygons.name));
             }
         }
     }
@@ -264,6 +268,7 @@ void require_on_grid(FeaturePoints const& points, Grid const& grid, std::string 
     for (std::size_t i = 0; i < points.points.size(); ++i) {
         Vec3 const& p = points.points[i];
         refuse_if<BadInput>(p.x < grid.west || p.x > grid.east() || p.y < grid.south() || p.y > grid.north,
+                            "recipe.require_skeleton_on_grid",
                             "skeleton.points = \"{}\": point {} at ({:.3f}, {:.3f}) lies off the grid, which reaches "
                             "from ({:.3f}, {:.3f}) to ({:.3f}, {:.3f}); widen the grid or remove it",
                             name, i + 1, p.x, p.y, grid.west, grid.south(), grid.east(), grid.north);
@@ -281,6 +286,7 @@ void require_skeleton_on_grid(Recipe const& recipe, FeaturePoints const& points,
     for (RiverLine const& ridge : ridges.lines) {
         for (Vec3 const& p : ridge.vertices) {
             refuse_if<BadInput>(p.x < grid.west || p.x > grid.east() || p.y < grid.south() || p.y > grid.north,
+                                "recipe.require_skeleton_on_grid",
                                 "skeleton.ridge_lines = \"{}\": feature {} reaches ({:.3f}, {:.3f}), off the grid, "
                                 "which reaches from ({:.3f}, {:.3f}) to ({:.3f}, {:.3f}); widen the grid or cut the "
                                 "line",
@@ -310,7 +316,7 @@ Grid frame_land(FeaturePoints const& points, GridRecipe const& wanted) {
         if (wanted.width == 0) {
             double const columns = std::ceil((east + margin - grid.west) / cell);
             double const rows = std::ceil((grid.north - south + margin) / cell);
-            refuse_if<BadInput>(!(columns < 1e6) || !(rows < 1e6),
+            refuse_if<BadInput>(!(columns < 1e6) || !(rows < 1e6), "recipe.frame_land",
                                 "grid: the points span {:.0f} x {:.0f} m, {:.3g} x {:.3g} cells of {} m: give a larger "
                                 "grid.cell or a grid",
                                 east - west, north - south, columns, rows, cell);

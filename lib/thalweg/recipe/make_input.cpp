@@ -131,10 +131,11 @@ Recipe recipe_from(std::string const& path) {
         try {
             return data_recipe(path);
         } catch (BadInput const& why) {
-            throw BadInput(fmt::format(
-                "recipe.recipe_from: {}; give a recipe (TOML), a DEM, a file of river lines, or a folder that make "
-                "or convert wrote",
-                why.what()));
+            throw BadInput(
+                "recipe.recipe_from",
+                fmt::format(
+                    "{}; give a recipe (TOML), a DEM, a file of river lines, or a folder that make or convert wrote",
+                    why.what()));
         }
     }
     Recipe recipe = read_recipe(io::read_text(path, 2 << 20), path);
@@ -143,8 +144,8 @@ Recipe recipe_from(std::string const& path) {
 }
 
 Recipe rebuild_recipe(Recipe recipe, Run const& run) {
-    refuse_if<BadInput>(!from_lines(recipe),
-                        "recipe.rebuild_recipe: there are no rivers of a file: name a file of lines with heights");
+    refuse_if<BadInput>(!from_lines(recipe), "recipe.rebuild_recipe",
+                        "there are no rivers of a file: name a file of lines with heights");
     if (!recipe.surface) {
         recipe.surface.emplace();
     }

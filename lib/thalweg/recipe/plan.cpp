@@ -71,11 +71,11 @@ std::vector<Cell> spread(Recipe const& recipe, Mask const& land, std::vector<Cel
 std::vector<Cell> at_points(Recipe const& recipe, Mask const& land, StageLog& stage_log, Run const& run) {
     ForestRecipe const& wanted = recipe.network->forest;
     Grid const& grid = land.grid();
-    refuse_if<BadInput>(wanted.seeds > 0,
+    refuse_if<BadInput>(wanted.seeds > 0, "recipe.resolve",
                         "network.forest.outlets = \"{}\" holds points, each an outlet; leave network.forest.seeds out",
                         wanted.outlets);
     refuse_if<BadInput>(
-        wanted.outlet_spacing_cells > 0 && recipe.set_at.contains("network.forest.outlet_spacing"),
+        wanted.outlet_spacing_cells > 0 && recipe.set_at.contains("network.forest.outlet_spacing"), "recipe.resolve",
         "network.forest.outlets = \"{}\" holds points, each an outlet; leave network.forest.outlet_spacing out",
         wanted.outlets);
     io::ReadPointsParams params;
@@ -126,7 +126,7 @@ std::vector<Cell> coast_along_file(Recipe const& recipe, Mask& land, Run const& 
         reach = wanted.spacing_cells; // coasts are drawn at different levels of detail
     }
     std::vector<Cell> coast = near_to(marked, growth::coast_cells(land), reach);
-    refuse_if<BadInput>(coast.empty(),
+    refuse_if<BadInput>(coast.empty(), "recipe.resolve",
                         "network.forest.outlets: no coast of the land lies within {} cells of {}; give outlets on the "
                         "coast, or the region whose coast they lie on",
                         reach, wanted.outlets);
@@ -173,7 +173,7 @@ void require_room(std::int64_t links, Grid const& grid, double spacing_cells) {
     double const apart = std::sqrt(static_cast<double>(grid.cells()) / static_cast<double>(links));
     double const kept = std::max(spacing_cells, 1.0);
     refuse_if<BadInput>(
-        links > 1 && apart < 0.5 * kept,
+        links > 1 && apart < 0.5 * kept, "recipe.resolve",
         "[network.tokunaga]: {} links on {} x {} cells lie {:.2g} cells apart, and keep {} cells from one another: {}",
         links, grid.width, grid.height, apart, kept, more_room);
 }
@@ -206,8 +206,8 @@ Plan plan_strokes(Recipe recipe, StageLog& stage_log, Run const& run) {
     if (!strokes.findings.empty()) { // a user who draws strokes needs each of them
         Finding const& none = strokes.findings.front();
         throw BadInput(
-            fmt::format("recipe.plan_tokunaga: stroke {} of {} at ({:.3f}, {:.3f}) is a single point or has no "
-                        "geometry; remove it",
+            "recipe.resolve",
+            fmt::format("stroke {} of {} at ({:.3f}, {:.3f}) is a single point or has no geometry; remove it",
                         none.feature, strokes.name, none.where.x, none.where.y));
     }
     recipe.grid.crs = strokes.crs;
@@ -223,8 +223,8 @@ void require_files(Recipe const& recipe) {
     for (NamedFile const& file : files_of(recipe)) {
         std::error_code ignored;
         if (!std::filesystem::exists(file_in(recipe, file.name).path, ignored)) {
-            throw BadInput(fmt::format("recipe.resolve: {} = \"{}\": there is no such file", file.key->place(file.item),
-                                       file.name));
+            throw BadInput("recipe.resolve",
+                           fmt::format("{} = \"{}\": there is no such file", file.key->place(file.item), file.name));
         }
     }
 }
@@ -259,7 +259,7 @@ RiverLines clipped(RiverLines lines, Grid const& grid, Mask const& land) {
     if (land.cells() > 0) {
         lines = network::clip_lines(lines, land);
     }
-    refuse_if<BadInput>(lines.lines.empty(), "grid: no river of {} runs inside the grid", lines.name);
+    refuse_if<BadInput>(lines.lines.empty(), "recipe.resolve", "grid: no river of {} runs inside the grid", lines.name);
     return lines;
 }
 
@@ -276,7 +276,7 @@ Plan with_heights_of_lines(Plan plan, RiverLines const& lines) {
         plan.heights_of_file = true;
         heights = Heights::file;
     }
-    refuse_if<BadInput>(heights == Heights::file && !lines.has_z,
+    refuse_if<BadInput>(heights == Heights::file && !lines.has_z, "recipe.resolve",
                         "network.heights = \"file\", but {} has lines without Z; choose other heights", lines.name);
     return plan;
 }

@@ -117,7 +117,7 @@ RiverLines without_placeholders(RiverLines lines) {
 
 /// The grid of a recipe, where a DEM settles what it leaves open: its own cells, or as large ones in another coordinate
 /// system, from its north-western corner to its south-eastern one.
-Grid grid_of_raster(Raster<float> const& dem, GridRecipe const& wanted, std::string const& what) {
+Grid grid_of_raster(Raster<float> const& dem, GridRecipe const& wanted, char const* where, std::string const& what) {
     Grid const& own = dem.grid();
     bool const is_same = io::same_crs(own.crs, wanted.crs, what, "the grid");
     Grid grid = own;
@@ -138,10 +138,10 @@ Grid grid_of_raster(Raster<float> const& dem, GridRecipe const& wanted, std::str
     auto const whole = [&](double m) { return std::floor(m / grid.cell_m + least_cells); };
     double const width = wanted.width > 0 ? static_cast<double>(wanted.width) : whole(east - grid.west);
     double const height = wanted.height > 0 ? static_cast<double>(wanted.height) : whole(grid.north - south);
-    refuse_if<BadInput>(!(width >= 1.0 && height >= 1.0),
+    refuse_if<BadInput>(!(width >= 1.0 && height >= 1.0), where,
                         "{} holds no cell of {} m from ({}, {}) to the east and south: it reaches to ({}, {})", what,
                         grid.cell_m, grid.west, grid.north, east, south);
-    refuse_if<BadInput>(!(width <= 1e6 && height <= 1e6),
+    refuse_if<BadInput>(!(width <= 1e6 && height <= 1e6), where,
                         "{} has {:.3g} x {:.3g} cells of {} m: give a larger grid.cell", what, width, height,
                         grid.cell_m);
     grid.width = static_cast<std::int64_t>(width);
@@ -198,7 +198,7 @@ Mask read_mask_of_land(io::Source const& source, Grid const& grid, Run const& ru
         return blend::mask_polygons(io::read_polygons(source, grid.crs, run), grid);
     }
     Raster<float> const given = io::read_dem(source, {.values = io::CellValues::codes});
-    refuse_if<BadInput>(given.width() != grid.width || given.height() != grid.height,
+    refuse_if<BadInput>(given.width() != grid.width || given.height() != grid.height, "recipe.read_mask_of_land",
                         "surface.mask = \"{}\" has {}x{} cells, the grid {}x{}", source.path, given.width(),
                         given.height(), grid.width, grid.height);
     Mask inside(grid);
@@ -227,7 +227,8 @@ Raster<float> read_field(io::Source const& source, Grid const& grid, std::string
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         if (!(field[i] > 0.0F)) {
             Cell const c = grid.at(i);
-            throw BadInput(fmt::format("{} = \"{}\" has {} in cell ({}, {}) of the grid: every value must be above "
+            throw BadInput("recipe.read_field",
+                           fmt::format("{} = \"{}\" has {} in cell ({}, {}) of the grid: every value must be above "
                                        "0",
                                        what, source.path, std::isnan(field[i]) ? "none" : fmt::format("{}", field[i]),
                                        c.col, c.row));
@@ -274,7 +275,7 @@ LikeDem measure_like(Recipe const& recipe, double cell_m, StageLog& stage_log, R
     }
     Raster<float> const there = io::warp_to_grid(dem, lattice, what, run);
     measure::Slopes const slopes = measure::slopes(there, run);
-    refuse_if<BadInput>(slopes.cells < least_cells || !(slopes.mean_deg > 0.0),
+    refuse_if<BadInput>(slopes.cells < least_cells || !(slopes.mean_deg > 0.0), "recipe.measure_like",
                         "{} has {} cells of {:.4g} m with a slope: it takes {} and a mean slope above 0", what,
                         slopes.cells, cell_m, least_cells);
     measure::GradientTexture const texture = measure::gradient_texture(there, {}, run);
@@ -440,11 +441,11 @@ Recipe on_grid_of_against(Recipe recipe, Run const& run) {
     std::string const what = fmt::format("output.against = \"{}\"", recipe.output.against);
     GridRecipe& wanted = recipe.grid;
     Raster<float> dem = io::read_dem(file_in(recipe, recipe.output.against), run);
-    refuse_if<BadInput>(dem.grid().crs.empty() && wanted.crs.empty(),
+    refuse_if<BadInput>(dem.grid().crs.empty() && wanted.crs.empty(), "recipe.on_grid_of_against",
                         "{} has no coordinate system: name that of its cells (--crs EPSG:n)", what);
     dem = dem.grid().crs.empty() ? in_crs(dem, crs_of_grid(wanted.crs)) : std::move(dem);
     wanted.crs = crs_of_grid(wanted.crs.empty() ? io::metric_crs(dem.grid(), what) : wanted.crs);
-    Grid const grid = grid_of_raster(dem, wanted, what);
+    Grid const grid = grid_of_raster(dem, wanted, "recipe.on_grid_of_against", what);
     wanted = on_cells_of(grid, std::move(wanted));
     wanted.clip = true;
     return recipe;
@@ -469,9 +470,10 @@ OnRaster settle_on_raster(Recipe const& recipe, Run const& run) {
         given = in_crs(given, wanted.crs);
     }
     Grid const own = given.grid();
-    Grid const grid = grid_of_raster(given, wanted, what);
+    Grid const grid = grid_of_raster(given, wanted, "recipe.settle_on_raster", what);
     OnRaster settled{on_cells_of(grid, std::move(wanted)), io::resample(given, grid, what, run), std::move(findings)};
     refuse_if<BadInput>(std::ranges::all_of(settled.dem.values(), [](float z) { return std::isnan(z); }),
+                        "recipe.settle_on_raster",
                         "{} has no height within the grid, which reaches from ({}, {}) to ({}, {}) in {:.60}: leave "
                         "grid.origin, width and height out, or move them to the DEM",
                         what, grid.west, grid.south(), grid.east(), grid.north, grid.crs);
@@ -484,18 +486,19 @@ OnRaster settle_on_raster(Recipe const& recipe, Run const& run) {
     return settled;
 }
 
-void require_metres(Grid const& grid, std::string const& path, char const* who) {
+void require_metres(Grid const& grid, std::string const& path, char const* where) {
     io::GroundCell const ground = io::ground_cell(grid);
     io::GridUnit const unit = ground.unit;
     if (unit == io::GridUnit::distorted) {
-        throw BadInput(fmt::format("{}: the coordinates of {} are in {:.60}, whose metres are {:.3g} m on the ground "
+        throw BadInput(where,
+                       fmt::format("the coordinates of {} are in {:.60}, whose metres are {:.3g} m on the ground "
                                    "there: reproject it first (gdalwarp -novshift -t_srs {:.60} {} OUT.tif)",
-                                   who, path, grid.crs, ground.side_m / grid.cell_m, ground.crs, path));
+                                   path, grid.crs, ground.side_m / grid.cell_m, ground.crs, path));
     }
     if (unit == io::GridUnit::degrees || unit == io::GridUnit::other) {
-        throw BadInput(fmt::format("{}: the coordinates of {} are {}: reproject it to a CRS in metres first "
-                                   "(gdalwarp -novshift -t_srs)",
-                                   who, path, unit == io::GridUnit::degrees ? "geographic" : "not in metres"));
+        throw BadInput(where, fmt::format("the coordinates of {} are {}: reproject it to a CRS in metres first "
+                                          "(gdalwarp -novshift -t_srs)",
+                                          path, unit == io::GridUnit::degrees ? "geographic" : "not in metres"));
     }
 }
 

@@ -101,8 +101,8 @@ OnRaster settle_on_raster(Recipe const& recipe, Run const& run);
 /// slopes of Big Tujunga averaged to cells of 75 to 1200 m.
 double usual_slope_deg(double cell_m);
 
-/// Throws BadInput if a file's coordinates are known not to be metres. grid: read from the file at path; who:
-/// "recipe.run_points", for the message.
-void require_metres(Grid const& grid, std::string const& path, char const* who);
+/// Throws BadInput if a file's coordinates are known not to be metres. grid: read from the file at path;
+/// where: "commands.run_points", the function that asks.
+void require_metres(Grid const& grid, std::string const& path, char const* where);
 
 } // namespace thalweg::recipe

@@ -215,8 +215,8 @@ Recipe keep_inputs(Recipe recipe, io::OutputFolder const& out) {
 
 std::string keep_user_file(std::string const& path, io::OutputFolder const& out, Run const& run) {
     std::error_code ignored;
-    refuse_if<BadInput>(path.empty() || (!is_address(path) && !fs::exists(path, ignored)),
-                        "recipe.keep_user_file: there is no file {}", path);
+    refuse_if<BadInput>(path.empty() || (!is_address(path) && !fs::exists(path, ignored)), "recipe.keep_user_file",
+                        "there is no file {}", path);
     return is_plain(path) ? keep_input(out, "", path, "")
                           : fs::path(io::plain_copy(path, "", out.staging(), run)).filename().string();
 }

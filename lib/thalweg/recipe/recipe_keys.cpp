@@ -50,7 +50,7 @@ template <class T> std::string text_of(T whole_or_yes_no) {
 
 /// Throws BadParameter: what is wanted, not the value.
 [[noreturn]] void refuse_value(std::string const& wanted, Value const& v) {
-    throw BadParameter(fmt::format("{} is required, not {}", wanted, toml_text(v)));
+    throw BadParameter("recipe.set_key", fmt::format("{} is required, not {}", wanted, toml_text(v)));
 }
 
 template <class T> T const& required(char const* wanted, Value const& v) {
@@ -80,9 +80,9 @@ int number_for(Key const& key, Value const& v) {
             return key.numbers[i];
         }
     }
-    throw BadParameter(fmt::format("{} is not one of its values.{} ({})", toml_text(v),
-                                   is_text ? did_you_mean(std::get<std::string>(v), words) : "",
-                                   fmt::join(words, ", ")));
+    throw BadParameter("recipe.set_key", fmt::format("{} is not one of its values.{} ({})", toml_text(v),
+                                                     is_text ? did_you_mean(std::get<std::string>(v), words) : "",
+                                                     fmt::join(words, ", ")));
 }
 
 /// The words of a list: one of TOML, or a text with commas between them.
@@ -95,7 +95,7 @@ WordList words_in(Value const& value) {
     for (std::string word; std::getline(text >> std::ws, word, ',');) {
         words.push_back(word.substr(0, word.find_last_not_of(' ') + 1));
     }
-    refuse_if<BadParameter>(words.empty(), "a list of words is required, not an empty one");
+    refuse_if<BadParameter>(words.empty(), "recipe.set_key", "a list of words is required, not an empty one");
     return words;
 }
 
@@ -117,7 +117,7 @@ struct Store {
     }
     void operator()(std::string* field) const {
         std::string const& s = required<std::string>("a text in quotes", value);
-        refuse_if<BadParameter>(s.size() > 4096 || s.find('\0') != std::string::npos,
+        refuse_if<BadParameter>(s.size() > 4096 || s.find('\0') != std::string::npos, "recipe.set_key",
                                 "the text is too long or holds a null byte");
         require_fit();
         *field = s;
@@ -141,7 +141,7 @@ private:
     }
     void require_in_range(double x) const {
         KeyRange const& range = key.row->allowed.range;
-        refuse_if<BadParameter>(!range.holds(x), "{} is outside its range {}", x, range.text());
+        refuse_if<BadParameter>(!range.holds(x), "recipe.set_key", "{} is outside its range {}", x, range.text());
     }
     void require_fit() const {
         AllowedValues const& allowed = key.row->allowed;

@@ -155,9 +155,9 @@ template <class Work> auto naming_key(std::string const& key, Work const& work) 
     try {
         return work();
     } catch (BadParameter const& fault) {
-        throw BadParameter(key + ": " + fault.what());
+        throw BadParameter(fault.where(), key + ": " + fault.what());
     } catch (BadInput const& fault) {
-        throw BadInput(key + ": " + fault.what());
+        throw BadInput(fault.where(), key + ": " + fault.what());
     }
 }
 

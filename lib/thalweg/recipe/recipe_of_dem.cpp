@@ -109,9 +109,8 @@ void put_statistics(DemRecipe& made, measure::Statistics const& s) {
 } // namespace
 
 DemRecipe recipe_of_dem(Raster<float> const& dem, measure::Statistics const& statistics, std::string const& source) {
-    refuse_if<BadInput>(!(statistics.min.z < statistics.max.z),
-                        "recipe.recipe_of_dem: every height of {} is {} m: a flat DEM has no statistics to match",
-                        source, statistics.max.z);
+    refuse_if<BadInput>(!(statistics.min.z < statistics.max.z), "recipe.recipe_of_dem",
+                        "every height of {} is {} m: a flat DEM has no statistics to match", source, statistics.max.z);
     DemRecipe made;
     made.notes.push_back(
         in_one_line(fmt::format("Terrain with the statistics of {}, measured on {} cells.", source, statistics.cells)));

@@ -47,7 +47,8 @@ bool is_near(Value const& v) {
 /// Its words are not those of its range.
 bool is_corner(Value const& v) {
     if (!is_near(v)) {
-        throw BadParameter(fmt::format("two numbers [west, north] within 1e9 are required, not {}", toml_text(v)));
+        throw BadParameter("recipe.set_key",
+                           fmt::format("two numbers [west, north] within 1e9 are required, not {}", toml_text(v)));
     }
     return true;
 }

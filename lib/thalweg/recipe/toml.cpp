@@ -121,21 +121,21 @@ bool is_too_large(toml::parse_error const& fault) {
 void require_modest(std::string const& toml, std::string const& name) {
     constexpr std::size_t most_bytes = 1 << 20;
     constexpr std::size_t longest_line = 8192;
-    refuse_if<BadParameter>(toml.size() > most_bytes,
-                            "recipe.read_recipe: {}: a recipe has at most {} bytes, this has {}", name, most_bytes,
-                            toml.size());
+    refuse_if<BadParameter>(toml.size() > most_bytes, "recipe.read_recipe",
+                            "{}: a recipe has at most {} bytes, this has {}", name, most_bytes, toml.size());
     for (std::size_t begin = 0, line = 1; begin < toml.size(); ++line) {
         std::size_t const end = std::min(toml.find('\n', begin), toml.size());
-        refuse_if<BadParameter>(end - begin > longest_line, "recipe.read_recipe: {}: line {} is longer than {} bytes",
+        refuse_if<BadParameter>(end - begin > longest_line, "recipe.read_recipe", "{}: line {} is longer than {} bytes",
                                 name, line, longest_line);
         begin = end + 1;
     }
     constexpr std::size_t most_levels = 32;
     if (auto const line = line_deeper_than(toml, most_levels)) {
         throw BadParameter(
-            fmt::format("recipe.read_recipe: {}: line {}: keys, tables and arrays are nested more than {} "
-                        "levels deep; no key of a recipe is",
-                        name, *line, most_levels));
+            "recipe.read_recipe",
+            fmt::format(
+                "{}: line {}: keys, tables and arrays are nested more than {} levels deep; no key of a recipe is", name,
+                *line, most_levels));
     }
 }
 
@@ -150,8 +150,9 @@ toml::table parse_modest(std::string const& toml, std::string const& name) {
     try {
         return toml::parse(toml, name);
     } catch (toml::parse_error const& fault) {
-        throw BadParameter(fmt::format("recipe.read_recipe: {}: line {}, column {}: {}", name,
-                                       fault.source().begin.line, fault.source().begin.column,
+        throw BadParameter("recipe.read_recipe",
+                           fmt::format("{}: line {}, column {}: {}", name, fault.source().begin.line,
+                                       fault.source().begin.column,
                                        is_too_large(fault) ? too_large : cut(fault.description())));
     }
 }
@@ -164,7 +165,7 @@ Value value_in_toml(std::string const& text) {
         return value_of(*table.get("v")).value_or(Value(text));
     } catch (toml::parse_error const& fault) {
         if (is_too_large(fault)) {
-            throw BadParameter(too_large);
+            throw BadParameter("recipe.set_key", too_large);
         }
         return text; // the key says what is wanted instead
     }
@@ -204,8 +205,8 @@ public:
     Recipe read(toml::table const& table) {
         read(table, "");
         if (!faults_.empty()) {
-            throw BadParameter(
-                fmt::format("recipe.read_recipe: {}: {}", name_, fmt::join(faults_, fmt::format("\n{}: ", name_))));
+            throw BadParameter("recipe.read_recipe",
+                               fmt::format("{}: {}", name_, fmt::join(faults_, fmt::format("\n{}: ", name_))));
         }
         settle_cell(recipe_);
         return recipe_;
@@ -249,7 +250,8 @@ private:
         }
         try {
             auto const value = value_of(node);
-            refuse_if<BadParameter>(!value, "its value has the wrong type; required: {}", key->help.type);
+            refuse_if<BadParameter>(!value, "recipe.read_recipe", "its value has the wrong type; required: {}",
+                                    key->help.type);
             key->put(recipe_, *value);
             recipe_.set_at[key->place(key->part->count(recipe_) - 1)] =
                 fmt::format("{}, line {}", name_, line_of(node));
@@ -298,34 +300,36 @@ std::string from_here(Recipe const& recipe, std::string const& name) {
 /// What a text without quotes means to a key.
 Value value_for(Key const& key, Recipe const& recipe, std::string const& text) {
     constexpr std::size_t longest = 200;
-    refuse_if<BadParameter>(!is_utf8(text), "the value is not UTF-8");
+    refuse_if<BadParameter>(!is_utf8(text), "recipe.set_key", "the value is not UTF-8");
     if (key.help.type == "text") {
         return key.help.is_file ? from_here(recipe, text) : text;
     }
-    refuse_if<BadParameter>(text.size() > longest, "the value is too long");
+    refuse_if<BadParameter>(text.size() > longest, "recipe.set_key", "the value is too long");
     return value_in_toml(text);
 }
 
 void assign(Recipe& recipe, Key const& key, std::optional<std::size_t> item, std::string const& text) {
     Value const value = value_for(key, recipe, text);
     std::size_t const count = key.part->count(recipe);
-    refuse_if<BadParameter>(item && *item > count, "the recipe has {} patches", count);
+    refuse_if<BadParameter>(item && *item > count, "recipe.set_key", "the recipe has {} patches", count);
     key.put(recipe, value, item);
     recipe.set_at[key.place(item.value_or(key.part->count(recipe) - 1))] = "--set";
 }
 
-Key const& key_at(Target const& target) {
+Key const& key_at(Target const& target, char const* where) {
     Key const* const key = find_key(target.path);
     if (key == nullptr) {
-        throw BadParameter(unknown_key(cut(target.path)));
+        throw BadParameter(where, unknown_key(cut(target.path)));
     }
     return *key;
 }
 
 void remove_section(Recipe& recipe, Section const& section, std::optional<std::size_t> item) {
     std::size_t const count = section.count(recipe);
-    refuse_if<BadParameter>(section.remove == nullptr, "[{}] is part of every recipe", section.name);
-    refuse_if<BadParameter>(count == 0 || item.value_or(0) >= count, "the recipe has no such [{}]", section.name);
+    refuse_if<BadParameter>(section.remove == nullptr, "recipe.unset_key", "[{}] is part of every recipe",
+                            section.name);
+    refuse_if<BadParameter>(count == 0 || item.value_or(0) >= count, "recipe.unset_key", "the recipe has no such [{}]",
+                            section.name);
     section.remove(recipe, item.value_or(count - 1));
     std::erase_if(recipe.set_at,
                   [&](auto const& at) { return at.first.starts_with(fmt::format("{}.", section.name)); });
@@ -410,19 +414,19 @@ Recipe read_recipe(std::string const& toml, std::string const& name) {
 
 void set_key(Recipe& recipe, std::string const& path, std::string const& text) {
     Target const target = target_of(path);
-    assign(recipe, key_at(target), target.item, text);
+    assign(recipe, key_at(target, "recipe.set_key"), target.item, text);
     settle_cell(recipe);
 }
 
 void set_key(Recipe& recipe, std::string const& assignment) {
     auto const equals = assignment.find('=');
     if (equals == std::string::npos || equals == 0) {
-        throw BadParameter(fmt::format("--set {}: write section.key=value", cut(assignment)));
+        throw BadParameter("recipe.set_key", fmt::format("--set {}: write section.key=value", cut(assignment)));
     }
     try {
         set_key(recipe, assignment.substr(0, equals), assignment.substr(equals + 1));
     } catch (BadParameter const& fault) {
-        throw BadParameter(fmt::format("--set {}: {}", cut(assignment), fault.what()));
+        throw BadParameter(fault.where(), fmt::format("--set {}: {}", cut(assignment), fault.what()));
     }
 }
 
@@ -435,10 +439,11 @@ void unset_key(Recipe& recipe, std::string const& path) {
         return;
     }
     Target const of_key = target_of(path);
-    Key const& key = key_at(of_key);
+    Key const& key = key_at(of_key, "recipe.unset_key");
     std::size_t const count = key.part->count(recipe);
     std::size_t const item = of_key.item.value_or(count - 1);
-    refuse_if<BadParameter>(count == 0 || item >= count, "{}: the recipe has no such section", cut(path));
+    refuse_if<BadParameter>(count == 0 || item >= count, "recipe.unset_key", "{}: the recipe has no such section",
+                            cut(path));
     key.reset(recipe, item);
     recipe.set_at.erase(key.place(item));
     settle_cell(recipe);
@@ -446,9 +451,9 @@ void unset_key(Recipe& recipe, std::string const& path) {
 
 void require_effect(Recipe const& recipe, std::string const& path) {
     Target const target = target_of(path);
-    Key const& key = key_at(target);
-    refuse_if<BadParameter>(!key.use(recipe), "{} has no effect in this recipe: it needs {}", cut(path),
-                            key.use.lacks(recipe));
+    Key const& key = key_at(target, "recipe.require_effect");
+    refuse_if<BadParameter>(!key.use(recipe), "recipe.require_effect", "{} has no effect in this recipe: it needs {}",
+                            cut(path), key.use.lacks(recipe));
 }
 
 std::vector<KeyValue> key_values(Recipe const& recipe) {

@@ -48,10 +48,9 @@ std::vector<double> means(Raster<float> const& dem, PageHeights const& page, Run
         for (std::int64_t r = value_row * page.cells; r < end; ++r) {
             auto const row = dem.row(r);
             for (std::size_t c = 0; c < row.size(); ++c) {
-                refuse_if<BadInput>(std::isinf(row[c]),
-                                    "report.page_heights: the height at column {}, row {} is infinite; mark cells "
-                                    "without data as NaN",
-                                    c, r);
+                refuse_if<BadInput>(std::isinf(row[c]), "report.page_heights",
+                                    "the height at column {}, row {} is infinite; mark cells without data as NaN", c,
+                                    r);
                 if (!std::isnan(row[c])) {
                     sum[c / side] += static_cast<double>(row[c]);
                     ++count[c / side];
@@ -170,15 +169,15 @@ bool on_the_way(Point a, Point b, Point c) {
 }
 
 std::vector<Point> points_of(std::span<Vec2 const> line, Grid const& grid, double step_m, std::size_t number) {
-    refuse_if<BadInput>(line.size() < 2, "report.page_lines: line {} has {} vertices; give two or more", number,
+    refuse_if<BadInput>(line.size() < 2, "report.page_lines", "line {} has {} vertices; give two or more", number,
                         line.size());
     std::vector<Point> points;
     for (std::size_t i = 0; i < line.size(); ++i) {
         double const x = std::floor((line[i].x - grid.west) / step_m + 0.5);
         double const y = std::floor((grid.north - line[i].y) / step_m + 0.5);
         if (!(std::fabs(x) < farthest && std::fabs(y) < farthest)) {
-            throw BadInput(fmt::format("report.page_lines: vertex {} of line {} lies at ({}, {}), far from the grid", i,
-                                       number, line[i].x, line[i].y));
+            throw BadInput("report.page_lines", fmt::format("vertex {} of line {} lies at ({}, {}), far from the grid",
+                                                            i, number, line[i].x, line[i].y));
         }
         Point const p{static_cast<std::int64_t>(x), static_cast<std::int64_t>(y)};
         if (!points.empty() && points.back() == p) {
@@ -454,7 +453,7 @@ std::string page(make::MakeResult const& made, PageParams const& params, Run con
 
 std::string scene_page(Scene const& scene, std::vector<std::string> const& notes, std::string const& command,
                        Run const& run) {
-    refuse_if<BadInput>(!scene.dem, "report.scene_page: there is no DEM to show");
+    refuse_if<BadInput>(!scene.dem, "report.scene_page", "there is no DEM to show");
     make::MakeResult made;
     made.recipe.output.title = scene.title;
     made.terrain = terrain_of(scene, run);

@@ -184,7 +184,7 @@ std::string missing_for(PictureKind kind, Scene const& scene) {
 
 draw::Picture draw_picture(PictureKind kind, Scene const& scene, Look const& look, Run const& run) {
     if (std::string const missing = missing_for(kind, scene); !missing.empty()) {
-        throw BadInput(fmt::format("report.draw_picture: no {} can be drawn, {}", name_of(kind), missing));
+        throw BadInput("report.draw_picture", fmt::format("no {} can be drawn, {}", name_of(kind), missing));
     }
     switch (kind) {
     case PictureKind::map: return draw_map(scene, look, run);

@@ -40,17 +40,15 @@ ElevatedNetwork network_of(NetworkFile const& file, std::string const& name) {
     std::unordered_map<std::int64_t, NodeId> nodes;
     for (NetworkFile::FileNode const& node : file.nodes) {
         NodeId const id = plan.add_node({node.at.x, node.at.y});
-        refuse_if<BadInput>(!nodes.emplace(node.id, id).second,
-                            "report.read_scene: {}: node {} is there twice; check the network (thalweg check)", name,
-                            node.id);
+        refuse_if<BadInput>(!nodes.emplace(node.id, id).second, "report.read_scene",
+                            "{}: node {} is there twice; check the network (thalweg check)", name, node.id);
         out.node_z.push_back(node.at.z);
     }
     for (NetworkFile::FileArc const& arc : file.arcs) {
         auto const from = nodes.find(arc.from_node);
         auto const to = nodes.find(arc.to_node);
-        refuse_if<BadInput>(from == nodes.end() || to == nodes.end() || arc.line.size() < 2,
-                            "report.read_scene: {}: arc {} lacks a node or a line; check the network (thalweg check)",
-                            name, arc.id);
+        refuse_if<BadInput>(from == nodes.end() || to == nodes.end() || arc.line.size() < 2, "report.read_scene",
+                            "{}: arc {} lacks a node or a line; check the network (thalweg check)", name, arc.id);
         Arc drawn;
         std::vector<double> z;
         for (Vec3 const v : arc.line) {
@@ -174,9 +172,10 @@ SceneRead read_folder(ReadSceneParams const& params, Run const& run) {
     std::string const recipe = (folder / "recipe.toml").string();
     std::string const report = (folder / "report.json").string();
     if (!fs::exists(dem) && !fs::exists(rivers)) {
-        throw BadInput(fmt::format("report.read_scene: {} holds neither dem.tif nor network.gpkg: name a folder "
-                                   "written by make, or a raster",
-                                   folder.string()));
+        throw BadInput(
+            "report.read_scene",
+            fmt::format("{} holds neither dem.tif nor network.gpkg: name a folder written by make, or a raster",
+                        folder.string()));
     }
     if (fs::exists(dem)) {
         io::Drawable read = io::read_drawable(
@@ -227,7 +226,7 @@ SceneRead read_scene(ReadSceneParams const& params, Run const& run) {
     }
     if (!network.empty()) {
         if (!out.scene.dem) {
-            throw BadInput(fmt::format("report.read_scene: there is no DEM to lay the rivers of {} on", network));
+            throw BadInput("report.read_scene", fmt::format("there is no DEM to lay the rivers of {} on", network));
         }
         out.scene.network = rivers_on(*out.scene.dem, network, out.findings, run);
     }

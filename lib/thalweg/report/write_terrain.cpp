@@ -391,13 +391,14 @@ draw::Picture comparison_against(make::Against const& against, make::Terrain con
 }
 
 void write_rivers(make::MakeResult const& made, std::string const& path, Run const& run) {
-    refuse_if<BadInput>(!made.recipe.network, "report.write_rivers: the recipe has no [network]: there are no rivers");
+    refuse_if<BadInput>(!made.recipe.network, "report.write_rivers",
+                        "the recipe has no [network]: there are no rivers");
     with_tables(made, [&](io::NetworkTables const& tables) { io::write_geopackage(tables, path, run); });
 }
 
 draw::Picture draw_map(make::MakeResult const& made, DrawMapParams const& params, Run const& run) {
-    refuse_if<BadInput>(!made.terrain.has_surface(),
-                        "report.draw_map: the recipe asks for rivers alone: there is no terrain to draw");
+    refuse_if<BadInput>(!made.terrain.has_surface(), "report.draw_map",
+                        "the recipe asks for rivers alone: there is no terrain to draw");
     draw::MapParams map;
     map.title = params.title.value_or(recipe::title_of(made.recipe));
     map.width_px = params.width_px;

@@ -126,9 +126,8 @@ void check(ServeParams const& params) {
     constexpr double hour_ms = 3600000.0;
     bool const is_plain =
         std::ranges::all_of(params.token, [](char c) { return is_letter_or_digit(c) || c == '-' || c == '_'; });
-    refuse_if<BadParameter>(
-        params.token.size() < 16 || !is_plain,
-        "{}: the token must have at least 16 letters, digits, '-' or '_', as new_token() gives them", function);
+    refuse_if<BadParameter>(params.token.size() < 16 || !is_plain, function,
+                            "the token must have at least 16 letters, digits, '-' or '_', as new_token() gives them");
     require_in(function, "connections", params.connections, Range::between(1, 100000));
     require_in(function, "message_bytes", params.message_bytes, Range::between(1, 1 << 30));
     require_in(function, "queue_bytes", params.queue_bytes, Range::between(1, static_cast<double>(1LL << 40)));
@@ -463,9 +462,9 @@ Listener::Listener(ServeParams given, Handlers called) : params(std::move(given)
         acceptor_.bind({asio::ip::address_v4::loopback(), params.port});
         acceptor_.listen();
     } catch (boost::system::system_error const& error) {
-        throw IoError(
-            fmt::format("serve.Server: cannot listen at port {}: {}; choose another port, or 0 for any free one",
-                        params.port, error.code().message()));
+        throw IoError("serve.Server",
+                      fmt::format("cannot listen at port {}: {}; choose another port, or 0 for any free one",
+                                  params.port, error.code().message()));
     }
     host = fmt::format("127.0.0.1:{}", acceptor_.local_endpoint().port());
 }
@@ -533,7 +532,7 @@ std::string new_token() {
     std::array<unsigned char, 16> random{};
     std::string token;
     refuse_if<IoError>(getrandom(random.data(), random.size(), 0) != static_cast<ssize_t>(random.size()),
-                       "serve.new_token: the system gives no random bytes");
+                       "serve.new_token", "the system gives no random bytes");
     for (unsigned char const byte : random) {
         token += fmt::format("{:02x}", byte);
     }

@@ -31,13 +31,12 @@ void require(NoiseAlongParams const& params) {
 Vec2 scaled(PlaceOnLine const& place, std::size_t number, Vec2 origin, double wavelength_m) {
     constexpr double farthest = 0x1p20; // libnoise wraps coordinates beyond 2^30, after three doublings
     Vec2 const at{(place.at.x - origin.x) / wavelength_m, (place.at.y - origin.y) / wavelength_m};
-    refuse_if<BadInput>(!(std::fabs(at.x) <= farthest && std::fabs(at.y) <= farthest),
-                        "skeleton.noise_along: place {} at ({}, {}) is not within 2^20 wavelengths of {} m from ({}, "
-                        "{}); lengthen the wave",
+    refuse_if<BadInput>(!(std::fabs(at.x) <= farthest && std::fabs(at.y) <= farthest), "skeleton.noise_along",
+                        "place {} at ({}, {}) is not within 2^20 wavelengths of {} m from ({}, {}); lengthen the wave",
                         number, place.at.x, place.at.y, wavelength_m, origin.x, origin.y);
-    refuse_if<BadInput>(!(place.share >= 0.0 && place.share <= 1.0),
-                        "skeleton.noise_along: place {} at ({}, {}) has a share of {}; give one from 0 to 1", number,
-                        place.at.x, place.at.y, place.share);
+    refuse_if<BadInput>(!(place.share >= 0.0 && place.share <= 1.0), "skeleton.noise_along",
+                        "place {} at ({}, {}) has a share of {}; give one from 0 to 1", number, place.at.x, place.at.y,
+                        place.share);
     return at;
 }
 
@@ -57,10 +56,9 @@ void raise(Raster<float>& z, std::int64_t cell, double height) {
 
 void require_height(Vec3 const& p, std::string const& what) {
     constexpr double highest = std::numeric_limits<float>::max();
-    refuse_if<BadInput>(
-        !(std::fabs(p.z) <= highest),
-        "skeleton.draw_skeleton: {} at ({:.3f}, {:.3f}) has a height of {}; give every vertex and point a number", what,
-        p.x, p.y, p.z);
+    refuse_if<BadInput>(!(std::fabs(p.z) <= highest), "skeleton.draw_skeleton",
+                        "{} at ({:.3f}, {:.3f}) has a height of {}; give every vertex and point a number", what, p.x,
+                        p.y, p.z);
 }
 
 std::vector<Cell> cells_of(std::vector<Vec3> const& line, Grid const& grid, std::string const& what) {
@@ -113,7 +111,7 @@ Raster<float> drawn_ridges(RidgeLines const& ridges, Grid const& grid, NoiseAlon
     for (std::size_t number = 1; RidgeLine const& ridge_line : ridges.lines) {
         std::string const what = fmt::format("ridge {}", number++);
         std::vector<Vec3> const& line = ridge_line.line;
-        refuse_if<BadInput>(line.empty(), "skeleton.draw_skeleton: {} has no vertices; leave it out", what);
+        refuse_if<BadInput>(line.empty(), "skeleton.draw_skeleton", "{} has no vertices; leave it out", what);
         Trail const trail = trail_of(line, cells_of(line, grid, what), grid);
         std::vector<double> const noise = noise_along(trail.places, {grid.west, grid.north}, params, run);
         for (std::size_t i = 0; i < trail.cells.size(); ++i) {
@@ -125,9 +123,8 @@ Raster<float> drawn_ridges(RidgeLines const& ridges, Grid const& grid, NoiseAlon
 
 Raster<float> drawn_points(FeaturePoints const& points, Grid const& grid) {
     Raster<float> z(grid, std::numeric_limits<float>::quiet_NaN());
-    refuse_if<BadInput>(!points.crs.empty() && !grid.crs.empty() && points.crs != grid.crs,
-                        "skeleton.draw_skeleton: the points are in {}, the valley in {}; reproject one of them",
-                        points.crs, grid.crs);
+    refuse_if<BadInput>(!points.crs.empty() && !grid.crs.empty() && points.crs != grid.crs, "skeleton.draw_skeleton",
+                        "the points are in {}, the valley in {}; reproject one of them", points.crs, grid.crs);
     for (std::size_t number = 1; Vec3 const& p : points.points) {
         raise(z, grid.index(cells_of({p}, grid, fmt::format("point {}", number++)).front()), p.z);
     }
@@ -186,9 +183,10 @@ DrawnSkeleton draw_skeleton(Valley const& valley, RidgeLines const& ridges, Feat
     Mask what(grid);
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         if (std::isinf(z[i])) {
-            throw BadInput(fmt::format("skeleton.draw_skeleton: infinite height in the valley at column {}, row {}; "
-                                       "every river needs finite heights",
-                                       grid.at(i).col, grid.at(i).row));
+            throw BadInput(
+                "skeleton.draw_skeleton",
+                fmt::format("infinite height in the valley at column {}, row {}; every river needs finite heights",
+                            grid.at(i).col, grid.at(i).row));
         }
         bool const has_ridge = !std::isnan(ridge_z[i]);
         bool const has_point = !std::isnan(point_z[i]);

@@ -24,9 +24,10 @@ void require(Skeleton const& skeleton, MidpointInverseParams const& params) {
     for (std::int64_t i = 0; i < skeleton.z.cells(); ++i) {
         if (std::isinf(skeleton.z[i])) {
             Cell const c = skeleton.z.grid().at(i);
-            throw BadInput(fmt::format("skeleton.midpoint_inverse: infinite height at column {}, row {}; every cell of "
-                                       "a skeleton needs a finite one",
-                                       c.col, c.row));
+            throw BadInput(
+                "skeleton.midpoint_inverse",
+                fmt::format("infinite height at column {}, row {}; every cell of a skeleton needs a finite one", c.col,
+                            c.row));
         }
     }
 }

@@ -7,8 +7,8 @@
 namespace thalweg::skeleton {
 
 std::vector<double> perlin(std::vector<Vec3> const&, int, Run const&) {
-    throw BadParameter("skeleton.perlin: skeleton.ridge_noise needs libnoise, and this thalweg was built without it; "
-                       "install libnoise-dev and build again, or leave ridge_noise out");
+    throw BadParameter("skeleton.perlin", "skeleton.ridge_noise needs libnoise, and this thalweg was built without it; "
+                                          "install libnoise-dev and build again, or leave ridge_noise out");
 }
 
 } // namespace thalweg::skeleton

@@ -51,9 +51,9 @@ solver::Circulant embed(Grid const& grid, GrfParams const& params, Run const& ru
     solver::StableCovariance const& covariance = params.covariance;
     std::int64_t const width = side(grid.width, covariance.lx_cells, params.embedding);
     std::int64_t const height = side(grid.height, covariance.ly_cells, params.embedding);
-    refuse_if<BadParameter>(width > most_cells / height,
-                            "skeleton.grf: a grid of {} x {} cells with correlation lengths of {} and {} cells needs a "
-                            "torus of {} x {}; shorten the lengths or lessen the embedding of {}",
+    refuse_if<BadParameter>(width > most_cells / height, "skeleton.grf",
+                            "a grid of {} x {} cells with correlation lengths of {} and {} cells needs a torus of {} x "
+                            "{}; shorten the lengths or lessen the embedding of {}",
                             grid.width, grid.height, covariance.lx_cells, covariance.ly_cells, width, height,
                             params.embedding);
     solver::Circulant torus = solver::circulant(covariance, width, height, run);
@@ -93,10 +93,10 @@ RandomField grf(Grid const& grid, GrfParams const& params, Run const& run) {
 Raster<float> markov3(Grid const& grid, FieldParams const& params, Run const& run) {
     check(params, "skeleton.markov3");
     double const length = (params.lx_cells + params.ly_cells) / 2.0;
-    refuse_if<BadParameter>(length > longest_cells,
-                            "skeleton.markov3: a correlation length of {} cells; the lead of five times that many rows "
-                            "and columns is made for at most {}",
-                            length, longest_cells);
+    refuse_if<BadParameter>(
+        length > longest_cells, "skeleton.markov3",
+        "a correlation length of {} cells; the lead of five times that many rows and columns is made for at most {}",
+        length, longest_cells);
     double const rho = portable::exp(-1.0 / length);
     double const diagonal = portable::exp(-std::sqrt(2.0) / length);
     double const weight = rho / (1.0 + diagonal);

@@ -127,7 +127,7 @@ private:
 };
 
 void require(FeaturePoints const& points, Grid const& grid, RegressParams const& p, std::size_t terms) {
-    auto const refuse = [](std::string const& what) { throw BadParameter("skeleton.regress: " + what); };
+    auto const refuse = [](std::string const& what) { throw BadParameter("skeleton.regress", what); };
     if (grid.cells() <= 0 || !(grid.cell_m > 0.0)) {
         refuse("the grid has no cells");
     }
@@ -139,12 +139,12 @@ void require(FeaturePoints const& points, Grid const& grid, RegressParams const&
     if (p.slope != SlopeMode::none && !(p.slope_rad > 0.0 && p.slope_rad < 0.5 * portable::pi)) {
         refuse(fmt::format("slope {} rad: give more than 0 and less than pi/2 = 1.5708", p.slope_rad));
     }
-    refuse_if<BadInput>(points.points.size() < terms,
-                        "skeleton.regress: {} points for {} terms: give {} or more, better twice as many",
-                        points.points.size(), terms, terms);
+    refuse_if<BadInput>(points.points.size() < terms, "skeleton.regress",
+                        "{} points for {} terms: give {} or more, better twice as many", points.points.size(), terms,
+                        terms);
     for (std::size_t i = 0; i < points.points.size(); ++i) {
         Vec3 const& q = points.points[i];
-        refuse_if<BadInput>(!is_finite(q), "skeleton.regress: point {} is ({}, {}, {}), no numbers", i + 1, q.x, q.y,
+        refuse_if<BadInput>(!is_finite(q), "skeleton.regress", "point {} is ({}, {}, {}), no numbers", i + 1, q.x, q.y,
                             q.z);
     }
 }

@@ -251,23 +251,22 @@ void require(RidgesParams const& params, Grid const& grid) {
                                       {"clear_m", params.clear_m}}) {
         require_in("skeleton.ridges", name, value, Range::at_least(0.0));
     }
-    refuse_if<BadParameter>(grid.width < 1 || grid.height < 1 || !(grid.cell_m > 0.0),
-                            "skeleton.ridges: a grid of {} x {} cells of {} m has no ground", grid.width, grid.height,
-                            grid.cell_m);
+    refuse_if<BadParameter>(grid.width < 1 || grid.height < 1 || !(grid.cell_m > 0.0), "skeleton.ridges",
+                            "a grid of {} x {} cells of {} m has no ground", grid.width, grid.height, grid.cell_m);
 }
 
 void require(ElevatedNetwork const& network, std::vector<std::int64_t> const& labels) {
     std::size_t const arcs = network.planform.arc_count();
-    refuse_if<BadInput>(labels.size() != arcs || network.arc_z.size() != arcs,
-                        "skeleton.ridges: {} labels and heights of {} arcs for a network of {}; give one for each arc",
-                        labels.size(), network.arc_z.size(), arcs);
+    refuse_if<BadInput>(labels.size() != arcs || network.arc_z.size() != arcs, "skeleton.ridges",
+                        "{} labels and heights of {} arcs for a network of {}; give one for each arc", labels.size(),
+                        network.arc_z.size(), arcs);
     for (std::size_t a = 0; a < arcs; ++a) {
         auto const& line = network.planform.arc(a).line;
         auto const& z = network.arc_z[a];
         auto const bad = std::ranges::find_if_not(z, [](double h) { return std::isfinite(h); });
         if (z.size() != line.size() || bad != z.end()) {
-            throw BadInput(fmt::format("skeleton.ridges: arc {} from ({:.3f}, {:.3f}) has no height at every vertex; "
-                                       "raise the network",
+            throw BadInput("skeleton.ridges",
+                           fmt::format("arc {} from ({:.3f}, {:.3f}) has no height at every vertex; raise the network",
                                        a + 1, line.front().x, line.front().y));
         }
     }

@@ -24,9 +24,9 @@ namespace thalweg::skeleton {
 
 Raster<float> attract(Raster<float> dem, Attraction const& attraction) {
     Cell const centre = attraction.centre;
-    refuse_if<BadParameter>(!dem.grid().contains(centre),
-                            "skeleton.attract: column {}, row {} is off the grid of {} x {} cells", centre.col,
-                            centre.row, dem.width(), dem.height());
+    refuse_if<BadParameter>(!dem.grid().contains(centre), "skeleton.attract",
+                            "column {}, row {} is off the grid of {} x {} cells", centre.col, centre.row, dem.width(),
+                            dem.height());
     require_in("skeleton.attract", "radius", attraction.radius_cells, Range::above(0.0).or_infinite(), "cells");
     require_in("skeleton.attract", "height", attraction.z, Range::finite(), "m");
     double const square = attraction.radius_cells * attraction.radius_cells;
@@ -209,8 +209,9 @@ void require_room(Grid const& grid, PlacePointsParams const& params) {
                           (static_cast<double>(grid.height) + params.spacing_cells);
     double const square = static_cast<double>(params.count) * params.spacing_cells * params.spacing_cells;
     if (params.count > 1 && square / ground > densest) {
-        throw BadParameter(fmt::format("skeleton.scatter: {} points {} cells apart have a density of {:.3f}; even the "
-                                       "densest packing ends at 1.155: ask for fewer or nearer ones",
+        throw BadParameter("skeleton.scatter",
+                           fmt::format("{} points {} cells apart have a density of {:.3f}; even the densest packing "
+                                       "ends at 1.155: ask for fewer or nearer ones",
                                        params.count, params.spacing_cells, square / static_cast<double>(grid.cells())));
     }
 }
@@ -311,7 +312,7 @@ std::vector<double> heights(std::size_t count, ScatterParams const& params) {
 }
 
 void require(Grid const& grid, ScatterParams const& p, double spacing_m) {
-    auto const refuse = [](std::string const& what) { throw BadParameter("skeleton.scatter: " + what); };
+    auto const refuse = [](std::string const& what) { throw BadParameter("skeleton.scatter", what); };
     if (grid.cells() <= 0 || !(grid.cell_m > 0.0)) {
         refuse("the grid has no cells");
     }
@@ -363,7 +364,7 @@ void require(Valley const& valley, Mask const& inside, ScatterBetweenParams cons
     require_in(stage, "gain", p.gain, Range::at_least(0.0));
     require_in(stage, "farthest", p.farthest_m, Range::at_least(0.0), "m");
     if (inside.cells() > 0) {
-        require_same_grid(inside.grid(), valley.z.grid(), "skeleton.scatter_between: the mask and the valley",
+        require_same_grid(inside.grid(), valley.z.grid(), "skeleton.scatter_between", "the mask and the valley",
                           "make both on one grid");
     }
 }
@@ -374,7 +375,7 @@ Mask rivers_of(Valley const& valley) {
         rivers[i] = std::isnan(valley.z[i]) ? 0 : 1;
     }
     refuse_if<BadInput>(std::find(rivers.values().begin(), rivers.values().end(), 1) == rivers.values().end(),
-                        "skeleton.scatter_between: no cell has a river; points need one to stand above");
+                        "skeleton.scatter_between", "no cell has a river; points need one to stand above");
     return rivers;
 }
 

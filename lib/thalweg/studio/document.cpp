@@ -31,9 +31,8 @@ constexpr char const* file_name = "recipe.toml";
 
 void require_own_files(Recipe const& recipe) {
     for (std::string const& name : recipe::file_names(recipe)) {
-        refuse_if<BadParameter>(
-            !lies_in_inputs(name),
-            "studio.apply: {}: the files of a document lie below inputs/: take it into the document", name);
+        refuse_if<BadParameter>(!lies_in_inputs(name), "studio.apply",
+                                "{}: the files of a document lie below inputs/: take it into the document", name);
     }
 }
 
@@ -100,7 +99,7 @@ public:
         try {
             recipe::set_key(recipe_, step.key, step.value);
         } catch (BadParameter const& fault) {
-            throw BadParameter(fmt::format("studio.apply: {}: {}", step.key, fault.what()));
+            throw BadParameter("studio.apply", fmt::format("{}: {}", step.key, fault.what()));
         }
         set_.insert(step.key);
         is_settled_ = false;
@@ -114,7 +113,7 @@ public:
         is_settled_ = false;
     }
     void operator()(TakeInput const& step) {
-        refuse_if<BadParameter>(!lies_in_inputs(step.file), "studio.apply: {} = {}: an input lies below inputs/",
+        refuse_if<BadParameter>(!lies_in_inputs(step.file), "studio.apply", "{} = {}: an input lies below inputs/",
                                 step.key, step.file);
         (*this)(SetKey{step.key, step.file});
     }
@@ -156,11 +155,11 @@ private:
 std::string with_lines(std::string toml, ReplaceLines const& lines) {
     for (std::string_view const text :
          {std::string_view(toml), std::string_view(lines.old_text), std::string_view(lines.new_text)}) {
-        refuse_if<BadInput>(!text.empty() && text.back() != '\n', "studio.apply: lines end in the middle of one");
+        refuse_if<BadInput>(!text.empty() && text.back() != '\n', "studio.apply", "lines end in the middle of one");
     }
     std::size_t const begin = lines.first < 0 ? std::string::npos : begin_of_line(toml, lines.first);
     bool const is_there = begin != std::string::npos && toml.compare(begin, lines.old_text.size(), lines.old_text) == 0;
-    refuse_if<BadInput>(!is_there, "studio.apply: the recipe has other lines than those to replace");
+    refuse_if<BadInput>(!is_there, "studio.apply", "the recipe has other lines than those to replace");
     return toml.replace(begin, lines.old_text.size(), lines.new_text);
 }
 
@@ -190,7 +189,7 @@ Document document_of(std::string const& toml) {
 }
 
 AppliedEdit apply(Document const& document, Edit const& edit) {
-    refuse_if<BadParameter>(!is_utf8(edit.name), "studio.apply: the name of an edit is not UTF-8");
+    refuse_if<BadParameter>(!is_utf8(edit.name), "studio.apply", "the name of an edit is not UTF-8");
     Draft draft(document);
     for (Step const& step : edit.steps) {
         std::visit(draft, step);

@@ -32,7 +32,7 @@ constexpr std::int64_t largest_recipe = 2 << 20;
 constexpr std::int64_t largest_history = 1 << 30;
 
 [[noreturn]] void fail_at(std::string const& path) {
-    throw IoError(fmt::format("studio.document_folder: {}: {}", path, std::generic_category().message(errno)));
+    throw IoError("studio.DocumentFolder", fmt::format("{}: {}", path, std::generic_category().message(errno)));
 }
 
 /// A recipe as the user's words or a folder of make give it.
@@ -54,7 +54,7 @@ int locked(std::string const& path) {
     if (flock(file, LOCK_EX | LOCK_NB) != 0) {
         bool const is_open = errno == EWOULDBLOCK;
         ::close(file);
-        refuse_if<BadInput>(is_open, "studio.document_folder: {} is open in another window or process: close it there",
+        refuse_if<BadInput>(is_open, "studio.DocumentFolder", "{} is open in another window or process: close it there",
                             fs::path(path).parent_path().string());
         fail_at(path);
     }
@@ -78,9 +78,8 @@ void require_no_way_out(std::string const& folder, Document const& document) {
     std::string const inputs = (fs::canonical(folder, error) / "inputs").string() + "/";
     for (std::string const& name : recipe::file_names(document.recipe)) {
         fs::path const place = fs::canonical(fs::path(folder) / name, error);
-        refuse_if<BadInput>(!error && !place.string().starts_with(inputs),
-                            "studio.document_folder: {} of {} leads out of inputs/ by a link: replace it by a copy",
-                            name, folder);
+        refuse_if<BadInput>(!error && !place.string().starts_with(inputs), "studio.DocumentFolder",
+                            "{} of {} leads out of inputs/ by a link: replace it by a copy", name, folder);
     }
 }
 
@@ -137,9 +136,8 @@ bool is_document(std::string const& folder) {
 }
 
 DocumentFolder::DocumentFolder(std::string folder) : folder_(std::move(folder)) {
-    refuse_if<BadInput>(!is_document(folder_),
-                        "studio.document_folder: {} is not the folder of a document: it has no {}", folder_,
-                        history_name);
+    refuse_if<BadInput>(!is_document(folder_), "studio.DocumentFolder",
+                        "{} is not the folder of a document: it has no {}", folder_, history_name);
     lock_ = locked((fs::path(folder_) / lock_name).string());
     try {
         open();
@@ -162,7 +160,7 @@ void DocumentFolder::open() {
     std::string const text = io::read_text(path, largest_history);
     Journal journal = read_journal(text, found);
     bool const is_readable = journal.lines > 0;
-    refuse_if<BadInput>(!is_readable && !has_recipe, "studio.document_folder: {} has neither a recipe nor a history",
+    refuse_if<BadInput>(!is_readable && !has_recipe, "studio.DocumentFolder", "{} has neither a recipe nor a history",
                         folder_);
     // A recipe that is no state of the history came later.
     bool const is_newer = has_recipe && found != journal.toml && !journal.passed;
@@ -275,11 +273,9 @@ bool DocumentFolder::redo() {
 
 std::string DocumentFolder::free_input() const {
     fs::path const inputs = fs::path(folder_) / "inputs";
-    refuse_if<BadInput>(
-        fs::is_symlink(fs::symlink_status(inputs)),
-        "studio.document_folder: {} is a link, and a document writes into its own folder alone: put the "
-        "folder in its place",
-        inputs.string());
+    refuse_if<BadInput>(fs::is_symlink(fs::symlink_status(inputs)), "studio.DocumentFolder",
+                        "{} is a link, and a document writes into its own folder alone: put the folder in its place",
+                        inputs.string());
     int number = 1;
     while (fs::exists(fs::symlink_status(fs::path(folder_) / fmt::format("inputs/{}", number)))) {
         ++number;

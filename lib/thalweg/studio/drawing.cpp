@@ -23,7 +23,7 @@ char const* name_of_part(Part const& part) {
 }
 
 void require_vertices(Part const& part) {
-    refuse_step_if(part.kind == Part::Kind::pin, "studio.drawing: a pin is one place: it has no vertices");
+    refuse_step_if(part.kind == Part::Kind::pin, "a pin is one place: it has no vertices");
 }
 
 /// Whether a line is closed: a coast explicitly, lakes and masks implicitly.
@@ -81,7 +81,7 @@ void finish_change(DrawResult& result, Part const& part, std::size_t first, std:
     }
     line = remove_repeats(std::move(line));
     if (line.size() < least_vertices(part.kind, line)) {
-        throw NotDrawn(fmt::format("studio.drawing: nothing would be left of {} here", name_of_part(part)),
+        throw NotDrawn("studio.drawn", fmt::format("nothing would be left of {} here", name_of_part(part)),
                        line.front());
     }
     DrawnLine changed = line;
@@ -100,7 +100,7 @@ void finish_change(DrawResult& result, Part const& part, std::size_t first, std:
     } else if (part.kind == Part::Kind::ridge) {
         DrawnLine const places = resample_line(changed, sampling_cells * cell_m);
         if (auto const at = first_near_lines(places, drawing.rivers, 0.5 * clearance_cells * cell_m)) {
-            throw NotDrawn("studio.drawing: the ridge would cross or touch a river here: no water crosses it", at);
+            throw NotDrawn("studio.drawn", "the ridge would cross or touch a river here: no water crosses it", at);
         }
     }
 }
@@ -139,8 +139,8 @@ void require_part(Drawing const& drawing, Part const& part) {
     std::size_t const counts[] = {drawing.rivers.size(), drawing.coasts.size(), drawing.lakes.size(),
                                   drawing.masks.size(),  drawing.pins.size(),   drawing.ridges.size()};
     if (part.number >= counts[static_cast<std::size_t>(part.kind)]) {
-        throw NotDrawn(
-            fmt::format("studio.drawing: {} with the number {} is not there", name_of_part(part), part.number));
+        throw NotDrawn("studio.drawn",
+                       fmt::format("{} with the number {} is not there", name_of_part(part), part.number));
     }
 }
 
@@ -152,7 +152,7 @@ DrawnLine& line_of_part(Drawing& drawing, Part const& part, std::size_t vertex) 
                       : part.kind == Part::Kind::ridge ? drawing.ridges[part.number].line
                                                        : drawing.masks[part.number];
     if (vertex >= line.size()) {
-        throw NotDrawn(fmt::format("studio.drawing: {} has no vertex {}", name_of_part(part), vertex));
+        throw NotDrawn("studio.drawn", fmt::format("{} has no vertex {}", name_of_part(part), vertex));
     }
     return line;
 }
@@ -160,8 +160,8 @@ DrawnLine& line_of_part(Drawing& drawing, Part const& part, std::size_t vertex) 
 void require_height(double height_m, char const* what) {
     constexpr double deepest = -12000.0;
     constexpr double highest = 30000.0;
-    refuse_if<BadParameter>(!(height_m >= deepest && height_m <= highest),
-                            "studio.drawing: {} lies between {} and {} m", what, deepest, highest);
+    refuse_if<BadParameter>(!(height_m >= deepest && height_m <= highest), "studio.drawn",
+                            "{} lies between {} and {} m", what, deepest, highest);
 }
 
 std::string count_of(std::size_t count, char const* one, char const* more) {
@@ -188,7 +188,7 @@ void apply_step(DrawResult& result, InsertVertex const& step) {
     result.name = fmt::format("a vertex of {}", name_of_part(step.of));
     bool const is_area = step.of.kind == Part::Kind::lake || step.of.kind == Part::Kind::mask;
     refuse_step_if(step.vertex > line.size() || (!is_area && (step.vertex == 0 || step.vertex == line.size())),
-                   "studio.drawing: a vertex is put between two others");
+                   "a vertex is put between two others");
     auto const before = static_cast<std::ptrdiff_t>(step.vertex);
     line.insert(line.begin() + before, clip_to_grid(result.drawing.grid, step.at));
     if (step.of.kind == Part::Kind::ridge) {
@@ -206,9 +206,8 @@ void apply_step(DrawResult& result, RemoveVertex const& step) {
     Vec2 const at = line[step.vertex];
     refuse_step_if(step.of.kind == Part::Kind::river && step.vertex + 1 != line.size() &&
                        meets_other_river(drawing, step.of.number, at),
-                   "studio.drawing: another river joins here: move it first", at);
-    refuse_step_if(line.size() <= least_vertices(step.of.kind, line),
-                   "studio.drawing: no vertex more can go: erase it as a whole", at);
+                   "another river joins here: move it first", at);
+    refuse_step_if(line.size() <= least_vertices(step.of.kind, line), "no vertex more can go: erase it as a whole", at);
     bool const is_closed_coast = step.of.kind == Part::Kind::coast && line.front() == line.back();
     erase_at(line, step.vertex);
     if (step.of.kind == Part::Kind::ridge) {

@@ -175,8 +175,8 @@ using DrawStep = std::variant<DrawRiver, MoveVertex, InsertVertex, RemoveVertex,
 /// What cannot be drawn, and why.
 class NotDrawn : public BadInput {
 public:
-    explicit NotDrawn(std::string const& words, std::optional<Vec2> where = std::nullopt)
-        : BadInput(words), at(where) {}
+    NotDrawn(std::string const& where, std::string const& what, std::optional<Vec2> place = std::nullopt)
+        : BadInput(where, what), at(place) {}
 
     std::optional<Vec2> at; ///< [m] where it is wrong
 };

@@ -36,7 +36,8 @@ struct StepAsJson {
 /// A text of an object. Throws BadInput.
 std::string text_in(json const& object, char const* name) {
     auto const at = object.find(name);
-    refuse_if<BadInput>(at == object.end() || !at->is_string(), "{} is missing or no text", name);
+    refuse_if<BadInput>(at == object.end() || !at->is_string(), "studio.DocumentFolder", "{} is missing or no text",
+                        name);
     return at->get<std::string>();
 }
 
@@ -44,12 +45,13 @@ ReplaceLines lines_in(json const& object) {
     auto const at = object.find("line");
     bool const is_number = at != object.end() && at->is_number_integer() &&
                            !(at->is_number_unsigned() && at->get<std::uint64_t>() > std::uint64_t{INT32_MAX});
-    refuse_if<BadInput>(!is_number || at->get<std::int64_t>() < 0, "line is missing or no number of a line");
+    refuse_if<BadInput>(!is_number || at->get<std::int64_t>() < 0, "studio.DocumentFolder",
+                        "line is missing or no number of a line");
     return {at->get<std::int64_t>(), text_in(object, "old"), text_in(object, "new")};
 }
 
 Step step_in(json const& object) {
-    refuse_if<BadInput>(!object.is_object(), "a step is no object");
+    refuse_if<BadInput>(!object.is_object(), "studio.DocumentFolder", "a step is no object");
     if (object.contains("set")) {
         return SetKey{text_in(object, "set"), text_in(object, "to")};
     }
@@ -58,7 +60,8 @@ Step step_in(json const& object) {
     }
     if (object.contains("take")) {
         TakeInput step{text_in(object, "for"), text_in(object, "take")};
-        refuse_if<BadInput>(!lies_in_inputs(step.file), "{} does not lie below inputs/", step.file);
+        refuse_if<BadInput>(!lies_in_inputs(step.file), "studio.DocumentFolder", "{} does not lie below inputs/",
+                            step.file);
         return step;
     }
     if (object.contains("recipe")) {
@@ -71,7 +74,7 @@ Change change_in(json const& object) {
     Change change;
     change.edit.name = text_in(object, "edit");
     auto const steps = object.find("steps");
-    refuse_if<BadInput>(steps == object.end() || !steps->is_array(), "steps are missing");
+    refuse_if<BadInput>(steps == object.end() || !steps->is_array(), "studio.DocumentFolder", "steps are missing");
     for (json const& step : *steps) {
         change.edit.steps.push_back(step_in(step));
     }
@@ -82,7 +85,7 @@ Change change_in(json const& object) {
 /// Parses a line; one that is nested deeper than any of ours is refused.
 json parsed(std::string_view line) {
     json value = bounded_json<json>(line, {.deepest = 4});
-    refuse_if<BadInput>(!value.is_object(), "it is no JSON that thalweg writes");
+    refuse_if<BadInput>(!value.is_object(), "studio.DocumentFolder", "it is no JSON that thalweg writes");
     return value;
 }
 
@@ -91,7 +94,7 @@ void follow(Journal& journal, json const& line) {
     History& history = journal.history;
     if (journal.lines == 0) {
         auto const format = line.find("thalweg_history");
-        refuse_if<BadInput>(format == line.end() || *format != format_of_journal,
+        refuse_if<BadInput>(format == line.end() || *format != format_of_journal, "studio.DocumentFolder",
                             "it does not begin as the journal of a document, or is one of a later version");
         journal.first_toml = text_in(line, "recipe");
         journal.toml = journal.first_toml;
@@ -104,7 +107,7 @@ void follow(Journal& journal, json const& line) {
         journal.toml = with_lines(journal.toml, history.done.back().inverse);
         move_last(history.done, history.undone);
     } else {
-        refuse_if<BadInput>(!line.contains("redo") || history.undone.empty(),
+        refuse_if<BadInput>(!line.contains("redo") || history.undone.empty(), "studio.DocumentFolder",
                             "it is no edit, and there is nothing to undo or redo");
         journal.toml = with_lines(journal.toml, reversed(history.undone.back().inverse));
         move_last(history.undone, history.done);

@@ -40,19 +40,19 @@ ordered_json or_null(std::optional<double> const& number) {
 
 std::string text_at(ordered_json const& of, char const* name) {
     auto const found = of.find(name);
-    refuse_if<BadInput>(found == of.end() || !found->is_string(), "studio.request: {} must be a text", name);
+    refuse_if<BadInput>(found == of.end() || !found->is_string(), "studio.Studio", "{} must be a text", name);
     return found->get<std::string>();
 }
 
 Step step_of(ordered_json const& of) {
-    refuse_if<BadInput>(!of.is_object(), "studio.request: a step is an object: set, unset or recipe");
+    refuse_if<BadInput>(!of.is_object(), "studio.Studio", "a step is an object: set, unset or recipe");
     if (of.contains("set")) {
         return SetKey{text_at(of, "set"), text_at(of, "value")};
     }
     if (of.contains("unset")) {
         return UnsetKey{text_at(of, "unset")};
     }
-    refuse_if<BadInput>(!of.contains("recipe"), "studio.request: a step has set and value, unset, or recipe");
+    refuse_if<BadInput>(!of.contains("recipe"), "studio.Studio", "a step has set and value, unset, or recipe");
     return ReplaceRecipe{text_at(of, "recipe")};
 }
 
@@ -60,14 +60,14 @@ Edit edit_of(ordered_json const& request) {
     constexpr std::size_t most_steps = 1000;
     constexpr std::size_t longest_name = 1000;
     auto const found = request.find("edit");
-    refuse_if<BadInput>(found == request.end() || !found->is_object(), "studio.request: there is no edit in it");
+    refuse_if<BadInput>(found == request.end() || !found->is_object(), "studio.Studio", "there is no edit in it");
     Edit edit;
     edit.name = found->contains("name") ? text_at(*found, "name") : "";
-    refuse_if<BadInput>(edit.name.size() > longest_name, "studio.request: the name of an edit has at most {} bytes",
+    refuse_if<BadInput>(edit.name.size() > longest_name, "studio.Studio", "the name of an edit has at most {} bytes",
                         longest_name);
     auto const steps = found->find("steps");
     refuse_if<BadInput>(steps == found->end() || !steps->is_array() || steps->empty() || steps->size() > most_steps,
-                        "studio.request: an edit has a list of 1 to {} steps", most_steps);
+                        "studio.Studio", "an edit has a list of 1 to {} steps", most_steps);
     for (ordered_json const& step : *steps) {
         edit.steps.push_back(step_of(step));
     }
@@ -76,9 +76,8 @@ Edit edit_of(ordered_json const& request) {
 
 ordered_json object_in(std::string_view text) {
     auto request = bounded_json<ordered_json>(text, bounds_of_messages);
-    refuse_if<BadInput>(!request.is_object(),
-                        "studio.request: a message is one JSON object, nested up to {} deep and "
-                        "with up to {} names in an object",
+    refuse_if<BadInput>(!request.is_object(), "studio.Studio",
+                        "a message is one JSON object, nested up to {} deep and with up to {} names in an object",
                         bounds_of_messages.deepest, bounds_of_messages.most_keys);
     return request;
 }
@@ -106,7 +105,7 @@ public:
         auto const found = std::ranges::find_if(verbs, [&](auto const& one) { return one.first == verb; });
         std::vector<std::string> names;
         std::ranges::transform(verbs, std::back_inserter(names), [](auto const& one) { return one.first; });
-        refuse_if<BadInput>(found == std::end(verbs), "studio.request: verb is one of {}", fmt::join(names, ", "));
+        refuse_if<BadInput>(found == std::end(verbs), "studio.Studio", "verb is one of {}", fmt::join(names, ", "));
         return (this->*found->second)();
     }
 
@@ -137,13 +136,13 @@ private:
         auto const found = of.find(name);
         bool const is_one =
             found != of.end() && found->is_number_integer() && (found->is_number_unsigned() || *found >= 0);
-        refuse_if<BadInput>(!is_one, "studio.request: {} must be a number from 0", name);
+        refuse_if<BadInput>(!is_one, "studio.Studio", "{} must be a number from 0", name);
         return found->get<std::size_t>();
     }
     std::size_t index(char const* name) const { return index(what_, name); }
 
     static double number(ordered_json const& value) {
-        refuse_if<BadInput>(!value.is_number(), "studio.request: a place is made of numbers");
+        refuse_if<BadInput>(!value.is_number(), "studio.Studio", "a place is made of numbers");
         return value.get<double>();
     }
 
@@ -151,15 +150,15 @@ private:
 
     Vec2 place(char const* name) const {
         auto const found = what_.find(name);
-        refuse_if<BadInput>(found == what_.end() || !found->is_array() || found->size() != 2,
-                            "studio.request: {} must be a place [x, y]", name);
+        refuse_if<BadInput>(found == what_.end() || !found->is_array() || found->size() != 2, "studio.Studio",
+                            "{} must be a place [x, y]", name);
         return metres(number((*found)[0]), number((*found)[1]));
     }
 
     DrawnLine line() const {
         auto const found = what_.find("points");
-        refuse_if<BadInput>(found == what_.end() || !found->is_array() || found->size() % 2 != 0,
-                            "studio.request: points must be a list [x, y, x, y, ...]");
+        refuse_if<BadInput>(found == what_.end() || !found->is_array() || found->size() % 2 != 0, "studio.Studio",
+                            "points must be a list [x, y, x, y, ...]");
         DrawnLine line;
         for (std::size_t i = 0; i + 1 < found->size(); i += 2) {
             line.push_back(metres(number((*found)[i]), number((*found)[i + 1])));
@@ -179,17 +178,17 @@ private:
     std::optional<double> metres_or_none(char const* name) const {
         auto const found = what_.find(name);
         bool const is_none = found == what_.end() || found->is_null();
-        refuse_if<BadInput>(!is_none && !found->is_number(), "studio.request: {} must be a number [m] or null", name);
+        refuse_if<BadInput>(!is_none && !found->is_number(), "studio.Studio", "{} must be a number [m] or null", name);
         return is_none ? std::nullopt : std::optional(found->get<double>());
     }
     double height() const {
         auto const height_m = metres_or_none("height");
-        refuse_if<BadInput>(!height_m, "studio.request: height must be a number [m]");
+        refuse_if<BadInput>(!height_m, "studio.Studio", "height must be a number [m]");
         return *height_m;
     }
     std::vector<std::size_t> rivers() const {
         auto const found = what_.find("rivers");
-        refuse_if<BadInput>(found == what_.end() || !found->is_array(), "studio.request: rivers must be a list");
+        refuse_if<BadInput>(found == what_.end() || !found->is_array(), "studio.Studio", "rivers must be a list");
         std::vector<std::size_t> all;
         for (ordered_json const& one : *found) {
             all.push_back(index({{"river", one}}, "river"));
@@ -202,8 +201,8 @@ private:
             {"mask", Part::Kind::mask},   {"pin", Part::Kind::pin},     {"ridge", Part::Kind::ridge}};
         auto const kind =
             std::ranges::find_if(kinds, [&](auto const& one) { return of.is_object() && of.contains(one.first); });
-        refuse_if<BadInput>(kind == std::end(kinds),
-                            "studio.request: a part is a river, coast, lake, mask, pin or ridge");
+        refuse_if<BadInput>(kind == std::end(kinds), "studio.Studio",
+                            "a part is a river, coast, lake, mask, pin or ridge");
         return {kind->second, index(of, kind->first)};
     }
     Part part() const { return part_in(what_.value("of", ordered_json::object())); }
@@ -256,7 +255,7 @@ Request request_of(std::string_view text) {
         {"draw", Request::Kind::draw}};
     ordered_json const request = object_in(text);
     auto const kind = kinds.find(text_at(request, "do"));
-    refuse_if<BadInput>(kind == kinds.end(), "studio.request: do is one of edit, try, undo, redo, export, stop, draw");
+    refuse_if<BadInput>(kind == kinds.end(), "studio.Studio", "do is one of edit, try, undo, redo, export, stop, draw");
     Request result{id_in(request), kind->second};
     if (result.kind == Request::Kind::edit || result.kind == Request::Kind::attempt) {
         result.edit = edit_of(request);
@@ -266,7 +265,7 @@ Request request_of(std::string_view text) {
     }
     if (result.kind == Request::Kind::draw) {
         auto const what = request.find("what");
-        refuse_if<BadInput>(what == request.end() || !what->is_object(), "studio.request: there is no step in it");
+        refuse_if<BadInput>(what == request.end() || !what->is_object(), "studio.Studio", "there is no step in it");
         result.step = [what = *what](Grid const& grid) { return StepReader(what, grid).step(); };
         auto const revision = request.find("revision");
         bool const has_one = revision != request.end() && revision->is_number_integer();

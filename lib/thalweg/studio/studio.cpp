@@ -115,7 +115,7 @@ private:
         std::string const name = path.substr(files.size());
         std::string const file = (fs::path(written.folder) / name).string();
         std::error_code error;
-        refuse_if<BadInput>(!fs::is_regular_file(fs::symlink_status(file, error)),
+        refuse_if<BadInput>(!fs::is_regular_file(fs::symlink_status(file, error)), "studio.Studio",
                             "{} is no longer there: export it again.", file);
         return serve::Answer{io::read_text(file, largest), type_of(name)};
     }
@@ -200,8 +200,8 @@ private:
     /// Draws a step. Returns what is to be said of it.
     std::vector<std::string> draw(Request const& request) {
         Document const& document = folder_.document();
-        refuse_if<BadInput>(request.revision >= 0 && request.revision != document.revision,
-                            "studio.draw: the document was changed meanwhile: draw on what is shown now");
+        refuse_if<BadInput>(request.revision >= 0 && request.revision != document.revision, "studio.Studio",
+                            "the document was changed meanwhile: draw on what is shown now");
         bool had_heights = false;
         Drawing const before = drawing_now(had_heights);
         drawing_grid_ = before.grid;
@@ -261,9 +261,8 @@ private:
         ShownRivers rivers;
         {
             std::scoped_lock const lock(guard_);
-            refuse_if<BadInput>(
-                !shown_rivers_ || shown_rivers_->toml != folder_.document().toml,
-                "studio.draw: the rivers of this recipe are still being made: draw when they are there");
+            refuse_if<BadInput>(!shown_rivers_ || shown_rivers_->toml != folder_.document().toml, "studio.Studio",
+                                "the rivers of this recipe are still being made: draw when they are there");
             rivers = *shown_rivers_;
         }
         had_heights = rivers.has_heights;
@@ -342,8 +341,8 @@ private:
     }
 
     void write(serve::Client client, Request const& request) {
-        refuse_if<BadInput>(is_writing_, "studio.export: the last export is still being written; wait for it");
-        refuse_if<BadInput>(is_empty_sheet(), "studio.export: there is no river yet: draw one");
+        refuse_if<BadInput>(is_writing_, "studio.Studio", "the last export is still being written; wait for it");
+        refuse_if<BadInput>(is_empty_sheet(), "studio.Studio", "there is no river yet: draw one");
         if (is_stale_) {
             changed();
         }
@@ -365,14 +364,14 @@ private:
 
     WrittenFolder written_now(std::int64_t job, std::string const& file, std::stop_token const& stop) {
         auto const made = engine_.wait(job, stop);
-        refuse_if<BadInput>(made == nullptr,
-                            "studio.export: there is no terrain of this recipe to write: it failed, or "
-                            "the recipe was changed meanwhile; export again when it is there");
+        refuse_if<BadInput>(made == nullptr, "studio.Studio",
+                            "there is no terrain of this recipe to write: it failed, or the recipe was changed "
+                            "meanwhile; export again when it is there");
         bool const is_whole = file.empty();
         fs::path const below = params_.export_folder.empty() ? params_.folder : params_.export_folder;
         fs::path const folder = is_whole ? below / "terrain" : fs::path(params_.folder) / ".terrain";
-        refuse_if<BadInput>(fs::is_symlink(fs::symlink_status(folder)),
-                            "studio.export: {} is a link: remove it, or export elsewhere (--export)", folder.string());
+        refuse_if<BadInput>(fs::is_symlink(fs::symlink_status(folder)), "studio.Studio",
+                            "{} is a link: remove it, or export elsewhere (--export)", folder.string());
         fs::create_directories(below);
         Run run;
         run.stop = stop;
@@ -380,8 +379,8 @@ private:
         WrittenFolder written;
         written.files = report::write_terrain(*made, folder.string(), io::Existing::replace, run);
         written.folder = fs::absolute(folder).lexically_normal().string();
-        refuse_if<BadInput>(!is_whole && std::ranges::find(written.files, file) == written.files.end(),
-                            "studio.export: make writes no {} of this recipe", file);
+        refuse_if<BadInput>(!is_whole && std::ranges::find(written.files, file) == written.files.end(), "studio.Studio",
+                            "make writes no {} of this recipe", file);
         written.url = is_whole ? "" : "files/" + file;
         std::scoped_lock const lock(guard_);
         written_ = written;
@@ -536,10 +535,8 @@ private:
 
 std::string document_for(std::string const& input, std::string const& folder, bool is_blank, Run const& run) {
     constexpr char const* usual = "studio";
-    refuse_if<BadParameter>(is_blank && !input.empty(),
-                            "studio: an empty sheet begins with nothing: leave out {}, or "
-                            "--blank",
-                            input);
+    refuse_if<BadParameter>(is_blank && !input.empty(), "studio.document_for",
+                            "studio: an empty sheet begins with nothing: leave out {}, or --blank", input);
     std::string const meant = !input.empty() ? input : folder.empty() ? usual : folder;
     if (!is_blank && is_document(meant)) {
         return meant;

@@ -100,7 +100,7 @@ TEST(Beside, throws_what_the_first_job_that_fails_has_thrown) {
                 jobs.add([i](thalweg::Run const&) {
                     if (i == 2 || i == 3) {
                         std::this_thread::sleep_for(std::chrono::milliseconds(i == 2 ? 20 : 0));
-                        throw thalweg::IoError("job " + std::to_string(i));
+                        throw thalweg::IoError("test.job", "job " + std::to_string(i));
                     }
                 });
             }

@@ -107,7 +107,7 @@ TEST(Driver, KeepsErrorsUntilTheyAreAskedFor) {
         EXPECT_EQ(inner.take(), "another matter");
         EXPECT_EQ(inner.take(), "");
     }
-    EXPECT_EQ(error_of([&] { driver.check("io.write_dem: out/dem.tif"); }),
+    EXPECT_EQ(error_of([&] { driver.check("io.write_dem", "out/dem.tif"); }),
               "IoError io.write_dem: out/dem.tif: the disk is full");
     EXPECT_NO_THROW(driver.check("x"));
 }

@@ -201,7 +201,7 @@ TEST(ReadLas, CrsOfKeysAndOfText) {
     file.is_wkt = true;
     EXPECT_EQ(read(file).crs, "EPSG:32632");
     file.long_records = {{2112, "PROJCS[\"nonsense\""}};
-    EXPECT_TRUE(has(refusal(bytes_of(file)), "BadInput io.read_las: the CRS of a.las (OGC WKT) is not understood"));
+    EXPECT_TRUE(has(refusal(bytes_of(file)), "BadInput io.read_points: the CRS of a.las (OGC WKT) is not understood"));
     file.is_wkt = false;
     file.long_records = {keys({{1024, 1}, {3072, 32631}})};
     file.long_records[0].data.pop_back();
@@ -359,7 +359,7 @@ TEST(ReadLas, BadHeadersAreRefusedWithWhatIsWrong) {
     EXPECT_EQ(refusal(old), "");
     EXPECT_EQ(refusal(latest), "");
     for (auto const& [bytes, what, remedy] : cases) {
-        EXPECT_TRUE(has(refusal(bytes), "BadInput io.read_las", "a.las", what, remedy));
+        EXPECT_TRUE(has(refusal(bytes), "BadInput io.read_points", "a.las", what, remedy));
     }
 }
 
@@ -405,7 +405,7 @@ TEST(ReadLas, CloudsAreKnownByTheirContent) {
         EXPECT_EQ(io::read_points({{folder / name, io::Access::recipe}}).points.size(), 3U);
     }
     folder.write("f.las", "x,y,z\n1,2,3\n");
-    EXPECT_TRUE(has(error_of([&] { io::read_points({folder / "f.las"}); }), "BadInput io.read_las", "f.las"));
+    EXPECT_TRUE(has(error_of([&] { io::read_points({folder / "f.las"}); }), "BadInput io.read_points", "f.las"));
     folder.write("a scan.e57", "ASTM-E57" + std::string(40, '\0'));
     for (std::string const& words : {error_of([&] { io::content_of(folder / "a scan.e57"); }),
                                      error_of([&] { io::read_points({folder / "a scan.e57"}); })}) {

@@ -19,7 +19,7 @@ TEST(ReadLaz, IsRefusedInWords) {
     for (unsigned const mark : {0x80U, 0x40U}) { // of the point format, by either of which LASzip says that it is one
         folder.write("a.laz", las_files::with(las_files::bytes_of(file), 104, static_cast<char>(mark)));
         std::string const words = test::error_of([&] { io::read_points({folder / "a.laz"}); });
-        EXPECT_TRUE(test::has(words, "BadInput io.read_las: a.laz is compressed", "built without LASzip",
+        EXPECT_TRUE(test::has(words, "BadInput io.read_points: a.laz is compressed", "built without LASzip",
                               "pdal translate ", "laszip -i ", "liblaszip-dev", "a.plain.las"));
     }
 }

@@ -71,8 +71,8 @@ TEST(ReadLaz, ReadsWhatLasHas) {
         std::string const whole = test::bytes_of(folder / "a.laz");
         for (std::size_t const part : {3U, 2U}) {
             folder.write("b.laz", whole.substr(0, whole.size() / part));
-            EXPECT_TRUE(test::has(test::error_of([&] { io::read_points({folder / "b.laz"}); }), "BadInput io.read_las",
-                                  "b.laz"));
+            EXPECT_TRUE(test::has(test::error_of([&] { io::read_points({folder / "b.laz"}); }),
+                                  "BadInput io.read_points", "b.laz"));
         }
     }
 }

@@ -610,8 +610,8 @@ TEST(DamagedLayers, AreNotTakenForEmptyOnes) {
     EXPECT_THROW(find_rivers(path), IoError);
     auto const data = opened(path);
     ASSERT_NE(data, nullptr);
-    EXPECT_THROW(require_lines(*data, "damaged.gpkg", "io.test"), IoError);
-    EXPECT_THROW(rivers_layers(*data, "", "io.test: damaged.gpkg"), IoError);
+    EXPECT_THROW(require_lines(*data, {"io.test", "damaged.gpkg"}), IoError);
+    EXPECT_THROW(rivers_layers(*data, "", {"io.test", "damaged.gpkg"}), IoError);
 }
 
 TEST(DamagedLayers, HeightsAreNotTakenForMetres) {

@@ -415,8 +415,8 @@ TEST(WarpToGrid, LeavesWhatFits) {
 TEST(WarpToGrid, RefusesWhereOnlyOneSideHasACrs) {
     Grid bare = utm;
     bare.crs = "";
-    auto const text = error_of([&] { io::warp_to_grid(plane(utm, 0, 0), bare, "io.test: a.tif"); });
-    EXPECT_TRUE(has(text, "BadInput io.test: a.tif", "EPSG:32631"));
+    auto const text = error_of([&] { io::warp_to_grid(plane(utm, 0, 0), bare, "a.tif"); });
+    EXPECT_TRUE(has(text, "BadInput io.warp_to_grid: a.tif", "EPSG:32631"));
     EXPECT_THROW(io::warp_to_grid(plane(bare, 0, 0), utm, "a"), BadInput);
 }
 
@@ -477,7 +477,7 @@ TEST(Resample, OtherCellsAreWarpedToTheGrid) {
         EXPECT_NEAR(dem[i], 100.0 + 0.1 * (p.x - utm.west) + 0.2 * (utm.north - p.y), 1e-3);
     }
     shifted.crs = "";
-    EXPECT_TRUE(has(error_of([&] { io::resample(plane(utm, 0.1, 0.2), shifted, "io.test: a.tif"); }), "BadInput"));
+    EXPECT_TRUE(has(error_of([&] { io::resample(plane(utm, 0.1, 0.2), shifted, "a.tif"); }), "BadInput"));
 }
 
 TEST(WarpToGrid, RealLandComesIntoItsZone) {

@@ -12,15 +12,14 @@ namespace thalweg {
 /// Base class of every exception that thalweg throws.
 class Error : public std::runtime_error {
 public:
-    /// Splits "module.function: what is wrong, where, what to do" into prefix and message. Text without a thalweg
-    /// module in front is all message; in a message of several lines repeated prefixes are removed.
-    /// \param text the full text
-    explicit Error(std::string const& text);
+    /// \param where the function that throws: "module.function"
+    /// \param what what is wrong, at which place, what to do
+    Error(std::string const& where, std::string const& what);
 
     // what() gives the message, for users of a program.
 
     /// The function that threw, for users of the library.
-    /// \return "module.function"; "": unknown
+    /// \return "module.function"
     char const* where() const noexcept { return where_.what(); }
 
 private:

@@ -30,8 +30,8 @@ template <class Number>
 void require_number_in(std::string_view function, std::string_view name, Number value, Range const& range,
                        std::string_view unit) {
     if (!range.contains(static_cast<double>(value))) {
-        throw BadParameter(fmt::format("{}: {} is {}{}{}; it must be {}", function, name, value,
-                                       unit.empty() ? "" : " ", unit, in_words(range)));
+        throw BadParameter(std::string(function), fmt::format("{} is {}{}{}; it must be {}", name, value,
+                                                              unit.empty() ? "" : " ", unit, in_words(range)));
     }
 }
 

@@ -69,7 +69,7 @@ constexpr Range Range::inside(double low, double high) {
 /// \param value the parameter's value
 /// \param range allowed values
 /// \param unit "": none
-/// \throws BadParameter "module.function: NAME is VALUE UNIT; it must be RANGE" unless the range contains the value
+/// \throws BadParameter "NAME is VALUE UNIT; it must be RANGE" unless the range contains the value
 void require_in(std::string_view function, std::string_view name, double value, Range const& range,
                 std::string_view unit = {});
 

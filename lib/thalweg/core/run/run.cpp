@@ -27,14 +27,14 @@ namespace thalweg {
 void Run::check() const {
     note_memory();
     if (stop.stop_requested()) {
-        throw Cancelled("interrupted");
+        throw Cancelled("core.Run", "interrupted");
     }
 }
 
 void Run::at(double share, char const* what) const {
     check();
     if (progress != nullptr && progress(share, what, progress_arg) == 0) {
-        throw Cancelled("interrupted");
+        throw Cancelled("core.Run", "interrupted");
     }
 }
 

@@ -39,7 +39,7 @@ struct LabelledSites {
 /// \throws BadParameter when the bounds have no area
 enum class Parts : std::uint8_t { vertices, segments };
 LabelledSites sites_of(std::vector<LabelledLine> const& lines, Bounds const& bounds, Parts parts,
-                       std::string const& what);
+                       std::string const& where);
 
 /// The sites around a face counterclockwise, the least first, and the position of that one among the face's vertices.
 /// CGAL orders faces and their vertices by memory address, which is not reproducible.

@@ -177,17 +177,16 @@ std::vector<std::uint8_t> grow(DlaParams const& params, Cluster& cluster, Run co
 constexpr std::int64_t of_four = 3;
 
 void check(Cluster const& cluster, BranchParams const& params) {
-    refuse_if<BadParameter>(
-        params.max_width < 0 || params.max_height < 0,
-        "growth.pick_branch: max_width is {} and max_height {}, they must be at least 1, or 0 for no limit",
-        params.max_width, params.max_height);
+    refuse_if<BadParameter>(params.max_width < 0 || params.max_height < 0, "growth.pick_branch",
+                            "max_width is {} and max_height {}, they must be at least 1, or 0 for no limit",
+                            params.max_width, params.max_height);
     require_in("growth.pick_branch", "turn_deg", params.turn_deg, Range::between(-180.0, 180.0));
     refuse_if<BadInput>(cluster.cells.empty() || cluster.parent.size() != cluster.cells.size() ||
                             cluster.parent[0] != -1,
-                        "growth.pick_branch: the cluster needs a seed and a parent for every other particle");
+                        "growth.pick_branch", "the cluster needs a seed and a parent for every other particle");
     for (std::size_t p = 1; p < cluster.parent.size(); ++p) {
         refuse_if<BadInput>(cluster.parent[p] < 0 || cluster.parent[p] >= static_cast<std::int64_t>(p),
-                            "growth.pick_branch: particle {} hangs on {}, it must hang on one that arrived before it",
+                            "growth.pick_branch", "particle {} hangs on {}, it must hang on one that arrived before it",
                             p, cluster.parent[p]);
     }
 }
@@ -243,10 +242,9 @@ std::size_t root_of(Cluster const& cluster, BranchChoice choice) {
 
 std::vector<std::uint8_t> choose(Cluster const& cluster, BranchChoice choice) {
     std::size_t const root = root_of(cluster, choice);
-    refuse_if<BadInput>(
-        root == 0,
-        "growth.pick_branch: the cluster of {} particles has no arm there, choose another or grow more particles",
-        cluster.cells.size());
+    refuse_if<BadInput>(root == 0, "growth.pick_branch",
+                        "the cluster of {} particles has no arm there, choose another or grow more particles",
+                        cluster.cells.size());
     return descendants(cluster, root);
 }
 
@@ -264,14 +262,13 @@ void require_growth(DlaParams const& params) {
     require_in("growth.grow_dla", "particles", params.particles, Range::at_least(1));
     require_in("growth.grow_dla", "sticking", params.sticking, Range{0.0, 1.0, false, true});
     require_in("growth.grow_dla", "visits", params.visits, Range::between(1, 255));
-    refuse_if<BadParameter>(params.max_radius < 0,
-                            "growth.grow_dla: max_radius is {}, it must be at least 1, or 0 for no limit",
-                            params.max_radius);
+    refuse_if<BadParameter>(params.max_radius < 0, "growth.grow_dla",
+                            "max_radius is {}, it must be at least 1, or 0 for no limit", params.max_radius);
     constexpr double most_arrivals = 1e12;
     double const arrivals = params.particles > 1 ? least_arrivals(params) : 0.0; // one of them is the seed
-    refuse_if<BadParameter>(arrivals > most_arrivals,
-                            "growth.grow_dla: {} particles with sticking {} need more than {:.0e} arrivals of walkers "
-                            "and would not end in a day: set sticking nearer to 1, or fewer particles",
+    refuse_if<BadParameter>(arrivals > most_arrivals, "growth.grow_dla",
+                            "{} particles with sticking {} need more than {:.0e} arrivals of walkers and would not end "
+                            "in a day: set sticking nearer to 1, or fewer particles",
                             params.particles, params.sticking, most_arrivals);
 }
 

@@ -286,12 +286,11 @@ void Walk::step(Walker& walker) const {
 
 std::vector<Cell> first_arrivals(std::span<Cell const> cluster, std::int64_t walkers, std::uint64_t seed,
                                  Run const& run) {
-    refuse_if<BadInput>(cluster.empty(), "growth.first_arrivals: the cluster has no cell, give at least one");
+    refuse_if<BadInput>(cluster.empty(), "growth.first_arrivals", "the cluster has no cell, give at least one");
     constexpr std::int64_t widest = 1 << 20;
     for (Cell const c : cluster) {
-        refuse_if<BadInput>(std::abs(c.col) > widest || std::abs(c.row) > widest,
-                            "growth.first_arrivals: cell ({}, {}) lies more than {} cells from the centre", c.col,
-                            c.row, widest);
+        refuse_if<BadInput>(std::abs(c.col) > widest || std::abs(c.row) > widest, "growth.first_arrivals",
+                            "cell ({}, {}) lies more than {} cells from the centre", c.col, c.row, widest);
     }
     Walk walk;
     for (Cell const c : cluster) {

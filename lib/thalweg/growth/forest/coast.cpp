@@ -218,9 +218,8 @@ private:
 
 Mask shape_island(Grid const& grid, IslandParams const& params, Run const& run) {
     require_in("growth.shape_island", "ruggedness", params.ruggedness, Range::between(0.0, 1.0));
-    refuse_if<BadInput>(std::min(grid.width, grid.height) < 16,
-                        "growth.shape_island: the grid has {} x {} cells, an island needs 16 x 16", grid.width,
-                        grid.height);
+    refuse_if<BadInput>(std::min(grid.width, grid.height) < 16, "growth.shape_island",
+                        "the grid has {} x {} cells, an island needs 16 x 16", grid.width, grid.height);
     auto const width = static_cast<double>(grid.width);
     auto const height = static_cast<double>(grid.height);
     double const shorter = std::min(width, height);
@@ -287,12 +286,10 @@ std::vector<Cell> coast_cells(Mask const& land) {
 
 std::vector<Cell> spread_outlets(Mask const& land, std::vector<Cell> const& coast, SpreadOutletsParams const& params,
                                  Run const& run) {
-    refuse_if<BadParameter>(
-        params.count < 0,
-        "growth.spread_outlets: count is {}, it must be at least 1, or 0 for as many as the coast is long",
-        params.count);
+    refuse_if<BadParameter>(params.count < 0, "growth.spread_outlets",
+                            "count is {}, it must be at least 1, or 0 for as many as the coast is long", params.count);
     require_in("growth.spread_outlets", "every_cells", params.every_cells, Range::above(0.0));
-    refuse_if<BadInput>(coast.empty(), "growth.spread_outlets: there is no coast on which a river could end");
+    refuse_if<BadInput>(coast.empty(), "growth.spread_outlets", "there is no coast on which a river could end");
     auto const length = static_cast<double>(coast.size());
     auto const wanted = params.count > 0 ? static_cast<std::size_t>(params.count)
                                          : static_cast<std::size_t>(std::ceil(length / params.every_cells));

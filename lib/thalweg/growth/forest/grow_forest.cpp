@@ -173,21 +173,19 @@ void check(Mask const& region, std::vector<Cell> const& seeds, ForestParams cons
     constexpr std::int64_t longest = 1 << 20;
     constexpr std::int64_t most_cells = 4'000'000'000; // indices in tiles have 32 bits
     require_in("growth.grow_forest", "step_cells", params.step_cells, Range::between(1, 100));
-    refuse_if<BadParameter>(params.particles < 0,
-                            "growth.grow_forest: particles is {}, it must be at least 1, or 0 for all that find room",
-                            params.particles);
+    refuse_if<BadParameter>(params.particles < 0, "growth.grow_forest",
+                            "particles is {}, it must be at least 1, or 0 for all that find room", params.particles);
     require_in("growth.grow_forest", "sticking", params.sticking, Range{0.0, 1.0, false, true});
     require_in("growth.grow_forest", "visits", params.visits, Range::between(1, 255));
-    refuse_if<BadInput>(std::max(region.width(), region.height()) > longest,
-                        "growth.grow_forest: the region has {} x {} cells, at most {} a side are possible",
-                        region.width(), region.height(), longest);
-    refuse_if<BadInput>(region.cells() > most_cells,
-                        "growth.grow_forest: the region has {} x {} cells, at most 4e9 are possible", region.width(),
-                        region.height());
-    refuse_if<BadInput>(seeds.empty(), "growth.grow_forest: there is no seed, give at least one");
+    refuse_if<BadInput>(std::max(region.width(), region.height()) > longest, "growth.grow_forest",
+                        "the region has {} x {} cells, at most {} a side are possible", region.width(), region.height(),
+                        longest);
+    refuse_if<BadInput>(region.cells() > most_cells, "growth.grow_forest",
+                        "the region has {} x {} cells, at most 4e9 are possible", region.width(), region.height());
+    refuse_if<BadInput>(seeds.empty(), "growth.grow_forest", "there is no seed, give at least one");
     for (Cell const s : seeds) {
-        refuse_if<BadInput>(!region.grid().contains(s) || region[s] == 0,
-                            "growth.grow_forest: the seed ({}, {}) lies outside the region", s.col, s.row);
+        refuse_if<BadInput>(!region.grid().contains(s) || region[s] == 0, "growth.grow_forest",
+                            "the seed ({}, {}) lies outside the region", s.col, s.row);
     }
 }
 
@@ -225,9 +223,8 @@ ForestGrowth::ForestGrowth(Mask const& region, std::vector<Cell> const& seeds, s
     }
     start_cells_.resize(static_cast<std::size_t>(cells_) + 1);
     for (Cell const s : seeds) {
-        refuse_if<BadInput>(!near(s).empty(),
-                            "growth.grow_forest: the seed ({}, {}) lies nearer than {} cells to another", s.col, s.row,
-                            2 * step);
+        refuse_if<BadInput>(!near(s).empty(), "growth.grow_forest",
+                            "the seed ({}, {}) lies nearer than {} cells to another", s.col, s.row, 2 * step);
         place(s, -1);
     }
     for (Cell const s : seeds) {
@@ -383,9 +380,9 @@ GrownForest grow_forest(Mask const& region, std::vector<Cell> const& seeds, Fore
                                  static_cast<double>(2 * params.step_cells);
     double const goal = params.particles > 0 ? static_cast<double>(params.particles) : in_a_full_one;
     constexpr double most_arrivals = 1e12; // about a day
-    refuse_if<BadParameter>(goal > most_arrivals * params.sticking,
-                            "growth.grow_forest: about {:.0f} particles with sticking {} need more than {:.0e} "
-                            "arrivals of walkers and would not end in a day: set sticking nearer to 1",
+    refuse_if<BadParameter>(goal > most_arrivals * params.sticking, "growth.grow_forest",
+                            "about {:.0f} particles with sticking {} need more than {:.0e} arrivals of walkers and "
+                            "would not end in a day: set sticking nearer to 1",
                             goal, params.sticking, most_arrivals);
     std::int64_t turns = 0;
     auto const look_up = [&] {

@@ -112,11 +112,11 @@ void check(Mask const& land, std::vector<Cell> const& coast, std::vector<Cell> c
            ForestParams const& params) {
     constexpr std::int64_t least_step = 4; // with less, rivers of two trees could touch between their seeds and outlets
     require_in("growth.plant_forest", "step_cells", params.step_cells, Range::between(least_step, 100));
-    refuse_if<BadInput>(coast.empty(), "growth.plant_forest: there is no land, all cells are sea");
+    refuse_if<BadInput>(coast.empty(), "growth.plant_forest", "there is no land, all cells are sea");
     auto const place = [&](Cell c) { return land.grid().index(c); };
     for (Cell const c : outlets) {
         refuse_if<BadInput>(!land.grid().contains(c) || !std::ranges::binary_search(coast, place(c), {}, place),
-                            "growth.plant_forest: the outlet ({}, {}) lies off the land's coast", c.col, c.row);
+                            "growth.plant_forest", "the outlet ({}, {}) lies off the land's coast", c.col, c.row);
     }
 }
 
@@ -206,9 +206,9 @@ std::vector<Mouth> mouths_of(Mask const& land, Mask const& inland, std::vector<C
     run.check();
     note_dry_land(land, mouths, notes, run);
     if (mouths.all().empty()) {
-        throw BadInput(fmt::format("growth.plant_forest: there is no room for a river: no cell is {} cells away "
-                                   "from the sea; take smaller cells or shorter steps",
-                                   inland_distance(step)));
+        throw BadInput("growth.plant_forest", fmt::format("there is no room for a river: no cell is {} cells away "
+                                                          "from the sea; take smaller cells or shorter steps",
+                                                          inland_distance(step)));
     }
     return mouths.all();
 }

@@ -234,43 +234,43 @@ constexpr std::uint64_t embed_stage = 0x656d626564; // "embed"
 
 /// Checks that a ring can be a region.
 void check_ring(std::vector<Vec2> const& ring) {
-    refuse_if<BadParameter>(ring.size() < 3, "growth.embed_tree: the region has {} vertices, it needs three at least",
+    refuse_if<BadParameter>(ring.size() < 3, "growth.embed_tree", "the region has {} vertices, it needs three at least",
                             ring.size());
     for (Vec2 const p : ring) {
-        refuse_if<BadParameter>(!is_finite(p), "growth.embed_tree: the region's vertex ({}, {}) is not finite", p.x,
+        refuse_if<BadParameter>(!is_finite(p), "growth.embed_tree", "the region's vertex ({}, {}) is not finite", p.x,
                                 p.y);
     }
     std::vector<Vec2> closed = ring;
     closed.push_back(ring.front());
     for (geometry::Crossing const& c : geometry::crossings({closed})) {
         bool const closing = c.at == ring.front();
-        refuse_if<BadParameter>(!closing,
-                                "growth.embed_tree: the region's ring meets itself at ({}, {}); draw it without loops",
-                                c.at.x, c.at.y);
+        refuse_if<BadParameter>(!closing, "growth.embed_tree",
+                                "the region's ring meets itself at ({}, {}); draw it without loops", c.at.x, c.at.y);
     }
-    refuse_if<BadParameter>(!(std::fabs(geometry::signed_area(ring)) > 0.0),
-                            "growth.embed_tree: the region has no area; give three places that are not in line");
+    refuse_if<BadParameter>(!(std::fabs(geometry::signed_area(ring)) > 0.0), "growth.embed_tree",
+                            "the region has no area; give three places that are not in line");
 }
 
 void check(EmbedParams const& params, std::size_t links) {
     require_in("growth.embed_tree", "clearance", params.clearance, Range::between(0.05, 0.35));
     require_in("growth.embed_tree", "min_spacing_m", params.min_spacing_m, Range::at_least(0.0));
-    refuse_if<BadParameter>(!is_finite(params.direction) || !is_finite(params.mouth),
-                            "growth.embed_tree: mouth and direction must be finite numbers");
+    refuse_if<BadParameter>(!is_finite(params.direction) || !is_finite(params.mouth), "growth.embed_tree",
+                            "mouth and direction must be finite numbers");
     check_ring(params.region);
     double const spacing = std::sqrt(std::fabs(geometry::signed_area(params.region)) / static_cast<double>(links));
     if (spacing < 1e-3) {
-        throw BadParameter(fmt::format("growth.embed_tree: {} links in {} m2 lie {} m apart; take a larger region or "
-                                       "fewer links",
-                                       links, std::fabs(geometry::signed_area(params.region)), spacing));
+        throw BadParameter("growth.embed_tree",
+                           fmt::format("{} links in {} m2 lie {} m apart; take a larger region or fewer links", links,
+                                       std::fabs(geometry::signed_area(params.region)), spacing));
     }
     double nearest = std::numeric_limits<double>::infinity();
     for (geometry::Segment const& side : sides_of(params.region)) {
         nearest = std::min(nearest, std::sqrt(geometry::squared_distance(params.mouth, side)));
     }
     refuse_if<BadParameter>(!geometry::contains(params.region, params.mouth) && nearest > 1e-6 * spacing,
-                            "growth.embed_tree: the outlet ({}, {}) lies {} m outside the region; move it to its edge",
-                            params.mouth.x, params.mouth.y, nearest);
+                            "growth.embed_tree",
+                            "the outlet ({}, {}) lies {} m outside the region; move it to its edge", params.mouth.x,
+                            params.mouth.y, nearest);
 }
 
 /// Where the trunk's first line ends: at two thirds of the distance to the other side.

@@ -29,7 +29,7 @@ namespace thalweg::growth {
 namespace {
 
 std::string named(RiverLines const& strokes, std::int64_t feature, Vec2 at) {
-    return fmt::format("growth.grow_strokes: stroke {} of {} at ({:.3f}, {:.3f})", feature, strokes.name, at.x, at.y);
+    return fmt::format("stroke {} of {} at ({:.3f}, {:.3f})", feature, strokes.name, at.x, at.y);
 }
 
 void measure(Stroke& stroke) {
@@ -45,10 +45,11 @@ Stroke as_drawn(RiverLine const& drawn, RiverLines const& strokes, Grid const& g
     for (Vec3 const& v : drawn.vertices) {
         Vec2 const p{v.x, v.y};
         if (!(p.x >= grid.west && p.x <= grid.east() && p.y >= grid.south() && p.y <= grid.north)) {
-            throw BadInput(named(strokes, drawn.feature, p) +
-                           fmt::format(" leaves the grid, which spans {:.1f} to {:.1f} east and {:.1f} to {:.1f} "
-                                       "north; enlarge the grid or shorten the stroke",
-                                       grid.west, grid.east(), grid.south(), grid.north));
+            throw BadInput("growth.grow_strokes",
+                           named(strokes, drawn.feature, p) +
+                               fmt::format(" leaves the grid, which spans {:.1f} to {:.1f} east and {:.1f} to {:.1f} "
+                                           "north; enlarge the grid or shorten the stroke",
+                                           grid.west, grid.east(), grid.south(), grid.north));
         }
         stroke.line.push_back(p);
     }
@@ -56,17 +57,19 @@ Stroke as_drawn(RiverLine const& drawn, RiverLines const& strokes, Grid const& g
     measure(stroke);
     if (stroke.line.size() < 2) {
         Vec2 const at = stroke.line.empty() ? Vec2{} : stroke.line.front();
-        throw BadInput(named(strokes, drawn.feature, at) + " is a single point; draw it from its mouth upstream");
+        throw BadInput("growth.grow_strokes",
+                       named(strokes, drawn.feature, at) + " is a single point; draw it from its mouth upstream");
     }
     if (!drawn.type.empty() && drawn.type != "none" && !rosgen_of(drawn.type)) {
         std::vector<std::string> names;
         for (Rosgen const type : rosgen_types) {
             names.emplace_back(name_of(type));
         }
-        throw BadInput(named(strokes, drawn.feature, stroke.line.front()) +
-                       fmt::format(" has the unknown river type '{}'.{} (Rosgen's are Aa+, A, B, C, D, DA, "
-                                   "E, F, G)",
-                                   drawn.type, did_you_mean(drawn.type, names)));
+        throw BadInput("growth.grow_strokes",
+                       named(strokes, drawn.feature, stroke.line.front()) +
+                           fmt::format(" has the unknown river type '{}'.{} (Rosgen's are Aa+, A, B, C, D, DA, "
+                                       "E, F, G)",
+                                       drawn.type, did_you_mean(drawn.type, names)));
     }
     return stroke;
 }
@@ -136,8 +139,8 @@ void require_joined(Strokes const& strokes, RiverLines const& names, double tole
         Vec2 const at{place.first, place.second};
         bool const alone = here.front().stroke == here.back().stroke;
         if (alone || meets_itself(here)) {
-            throw BadInput(named(names, strokes[here.front().stroke].feature, at) +
-                           " meets itself; draw it without loops");
+            throw BadInput("growth.grow_strokes", named(names, strokes[here.front().stroke].feature, at) +
+                                                      " meets itself; draw it without loops");
         }
         auto const begins_here = [&](std::size_t k, std::size_t on) {
             return std::cmp_equal(strokes[k].onto, on) && distance(strokes[k].line.front(), at) <= tolerance_m;
@@ -147,9 +150,10 @@ void require_joined(Strokes const& strokes, RiverLines const& names, double tole
                 if (one >= other || begins_here(one, other) || begins_here(other, one)) {
                     continue;
                 }
-                throw BadInput(named(names, strokes[one].feature, at) +
-                               fmt::format(" crosses stroke {}; rivers do not cross: let one begin on the other",
-                                           strokes[other].feature));
+                throw BadInput("growth.grow_strokes",
+                               named(names, strokes[one].feature, at) +
+                                   fmt::format(" crosses stroke {}; rivers do not cross: let one begin on the other",
+                                               strokes[other].feature));
             }
         }
     }
@@ -163,9 +167,10 @@ void require_mouths_below(Strokes const& strokes, RiverLines const& names, doubl
             if (other == k || distance_to(strokes[other], end) > tolerance_m) {
                 continue;
             }
-            throw BadInput(named(names, strokes[k].feature, end) +
-                           fmt::format(" ends on stroke {}; strokes run from their mouth upstream: turn it round",
-                                       strokes[other].feature));
+            throw BadInput("growth.grow_strokes",
+                           named(names, strokes[k].feature, end) +
+                               fmt::format(" ends on stroke {}; strokes run from their mouth upstream: turn it round",
+                                           strokes[other].feature));
         }
     }
 }
@@ -176,8 +181,9 @@ void require_apart(Strokes const& strokes, RiverLines const& names, double toler
     for (std::size_t k = 0; k < strokes.size(); ++k) {
         for (std::size_t m = 0; m < k; ++m) {
             if (distance(strokes[k].line.front(), strokes[m].line.front()) <= tolerance_m) {
-                throw BadInput(named(names, strokes[k].feature, strokes[k].line.front()) +
-                               fmt::format(" begins where stroke {} does; move one of them", strokes[m].feature));
+                throw BadInput("growth.grow_strokes",
+                               named(names, strokes[k].feature, strokes[k].line.front()) +
+                                   fmt::format(" begins where stroke {} does; move one of them", strokes[m].feature));
             }
         }
     }
@@ -185,16 +191,19 @@ void require_apart(Strokes const& strokes, RiverLines const& names, double toler
         if (s.onto >= 0) {
             Stroke const& below = strokes[s.onto];
             if (s.onto_way_m >= below.way.back() - tolerance_m) {
-                throw BadInput(named(names, s.feature, s.line.front()) +
-                               fmt::format(" begins at the upper end of stroke {}; draw both as one, or let it begin "
-                                           "lower down",
-                                           below.feature));
+                throw BadInput(
+                    "growth.grow_strokes",
+                    named(names, s.feature, s.line.front()) +
+                        fmt::format(" begins at the upper end of stroke {}; draw both as one, or let it begin "
+                                    "lower down",
+                                    below.feature));
             }
         }
         StrokeId below = s.onto;
         for (std::size_t steps = 0; below >= 0; ++steps) {
             if (steps > strokes.size()) {
-                throw BadInput(named(names, s.feature, s.line.front()) + " flows in a ring of strokes; let one end");
+                throw BadInput("growth.grow_strokes",
+                               named(names, s.feature, s.line.front()) + " flows in a ring of strokes; let one end");
             }
             below = strokes[below].onto;
         }
@@ -381,8 +390,9 @@ void require_in_place(Strokes const& strokes, RiverLines const& drawn, std::vect
         Vec3 const start = drawn.lines[k].vertices.front();
         LinkId const joint = joints[k];
         if (joint >= 0 && settled.stays[joint] != 0 && distance(settled.at[joint], {start.x, start.y}) > cell_m) {
-            throw BadInput(fmt::format("growth.grow_strokes: stroke {} of {} at ({:.3f}, {:.3f}) begins on stroke {}, "
-                                       "which others leave no room there; draw the strokes further apart",
+            throw BadInput("growth.grow_strokes",
+                           fmt::format("stroke {} of {} at ({:.3f}, {:.3f}) begins on stroke {}, which others leave no "
+                                       "room there; draw the strokes further apart",
                                        strokes[k].feature, drawn.name, start.x, start.y,
                                        strokes[strokes[k].onto].feature));
         }
@@ -407,8 +417,8 @@ Strokes join_strokes(RiverLines const& drawn, Grid const& grid, Run const& run) 
             move_beginning(strokes[k], strokes[strokes[k].onto], spots[k]);
         }
         if (!(strokes[k].way.back() > tolerance_m)) {
-            throw BadInput(named(drawn, strokes[k].feature, strokes[k].line.front()) +
-                           " is no longer than half a cell; draw it longer");
+            throw BadInput("growth.grow_strokes", named(drawn, strokes[k].feature, strokes[k].line.front()) +
+                                                      " is no longer than half a cell; draw it longer");
         }
     }
     require_mouths_below(strokes, drawn, tolerance_m);

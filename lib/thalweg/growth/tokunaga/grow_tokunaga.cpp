@@ -79,10 +79,10 @@ public:
                 add(top, 1, -first);
             }
             tops_[i] = top;
-            refuse_if<BadParameter>(std::ssize(links_) > params_.max_links,
-                                    "growth.grow_tokunaga: order {} with generator {} has more than {} links; lower "
-                                    "the order or the generator",
-                                    params_.order, params_.generator, params_.max_links);
+            refuse_if<BadParameter>(
+                std::ssize(links_) > params_.max_links, "growth.grow_tokunaga",
+                "order {} with generator {} has more than {} links; lower the order or the generator", params_.order,
+                params_.generator, params_.max_links);
         }
         return std::move(links_);
     }

@@ -104,14 +104,14 @@ public:
     }
 
     LSystem finish() {
-        refuse_if<BadInput>(system_.axiom.empty(),
-                            "growth.read_rules: {}: there is no axiom; write a line such as: axiom F", name_);
+        refuse_if<BadInput>(system_.axiom.empty(), "growth.read_rules",
+                            "{}: there is no axiom; write a line such as: axiom F", name_);
         return std::move(system_);
     }
 
 private:
     [[noreturn]] void refuse(std::string const& what) const {
-        throw BadInput(fmt::format("growth.read_rules: {}, line {}: {}", name_, number_, what));
+        throw BadInput("growth.read_rules", fmt::format("{}, line {}: {}", name_, number_, what));
     }
 
     std::string checked(std::string word) const {
@@ -161,10 +161,10 @@ void require_brackets(std::string_view word) {
     std::int64_t open = 0;
     for (std::size_t i = 0; i < word.size(); ++i) {
         open += word[i] == '[' ? 1 : word[i] == ']' ? -1 : 0;
-        refuse_if<BadParameter>(open < 0, "growth.rewrite: the axiom closes a bracket at position {} that is not open",
-                                i + 1);
+        refuse_if<BadParameter>(open < 0, "growth.rewrite",
+                                "the axiom closes a bracket at position {} that is not open", i + 1);
     }
-    refuse_if<BadParameter>(open > 0, "growth.rewrite: the axiom has a [ without its ]");
+    refuse_if<BadParameter>(open > 0, "growth.rewrite", "the axiom has a [ without its ]");
 }
 
 std::string rewritten(std::string const& word, LSystem const& system, std::uint64_t seed, int iteration,
@@ -186,10 +186,9 @@ std::string rewritten(std::string const& word, LSystem const& system, std::uint6
                           random_word(seed, rewrite_stage, static_cast<std::uint64_t>(iteration), i) % words.size());
             next += words[which];
         }
-        refuse_if<BadParameter>(
-            next.size() > most_signs,
-            "growth.rewrite: after {} iterations the word has more than {} signs; ask for fewer iterations",
-            iteration + 1, most_signs);
+        refuse_if<BadParameter>(next.size() > most_signs, "growth.rewrite",
+                                "after {} iterations the word has more than {} signs; ask for fewer iterations",
+                                iteration + 1, most_signs);
     }
     return next;
 }
@@ -213,8 +212,8 @@ LSystem read_rules(std::string_view text, std::string const& name) {
 }
 
 std::string rewrite(LSystem const& system, std::uint64_t seed, Run const& run) {
-    refuse_if<BadParameter>(system.iterations < 0 || system.iterations > most_iterations,
-                            "growth.rewrite: {} iterations; give 0 to {}", system.iterations, most_iterations);
+    refuse_if<BadParameter>(system.iterations < 0 || system.iterations > most_iterations, "growth.rewrite",
+                            "{} iterations; give 0 to {}", system.iterations, most_iterations);
     require_brackets(system.axiom);
     std::string word = system.axiom;
     for (int k = 0; k < system.iterations; ++k) {

@@ -46,10 +46,9 @@ double side_of_geographic(Grid const& grid, OGRSpatialReference const& reference
     double const unit = reference.GetAngularUnits(nullptr);
     double const latitude = 0.5 * (grid.north + grid.south()) * unit;
     if (!(std::fabs(latitude) < portable::pi / 2.0)) {
-        throw BadInput(
-            fmt::format("io.ground_cell: the middle of the grid lies at latitude {:.3f} degrees, not between "
-                        "the poles; give the grid its true place",
-                        latitude * 180.0 / portable::pi));
+        throw BadInput("io.ground_cell", fmt::format("the middle of the grid lies at latitude {:.3f} degrees, not "
+                                                     "between the poles; give the grid its true place",
+                                                     latitude * 180.0 / portable::pi));
     }
     double const flattening = reference.GetInvFlattening() > 0.0 ? 1.0 / reference.GetInvFlattening() : 0.0;
     double const eccentricity_2 = flattening * (2.0 - flattening);
@@ -66,7 +65,7 @@ std::optional<std::string> crs_instead_of(OGRSpatialReference const& reference, 
 }
 
 // East may exceed 180, but not west + 360.
-DegreeBox box_of(Grid const& grid, std::string const& what) {
+DegreeBox box_of(Grid const& grid, About const& about) {
     Driver const driver;
     OGRSpatialReference const from = read_reference(grid.crs);
     OGRSpatialReference const globe = globe_of(from);
@@ -75,8 +74,9 @@ DegreeBox box_of(Grid const& grid, std::string const& what) {
     constexpr int points_a_side = 21;
     if (!turn || turn->TransformBounds(grid.west, grid.south(), grid.east(), grid.north, &box.west, &box.south,
                                        &box.east, &box.north, points_a_side) == 0) {
-        throw BadInput(fmt::format("{} lies where its CRS has no longitude and latitude; check its position: {}", what,
-                                   driver.take()));
+        throw BadInput(about.where,
+                       fmt::format("{} lies where its CRS has no longitude and latitude; check its position: {}",
+                                   about.name, driver.take()));
     }
     if (box.east < box.west) {
         box.east += 360.0; // across the antimeridian
@@ -98,20 +98,19 @@ OGRSpatialReference read_reference(std::string const& text) {
     take_refusal();
     if (text.empty() || is_mistyped_code(text) ||
         reference.SetFromUserInput(text.c_str(), options.List()) != OGRERR_NONE) {
-        throw_refusal(take_refusal(), "io.read_reference: the CRS");
+        throw_refusal(take_refusal(), {"io.read_reference", "the CRS"});
         auto const words = driver.take();
         if (words.find("proj.db") != std::string::npos || !has_database()) {
-            throw IoError(
-                fmt::format("io.read_reference: the CRS {} cannot be looked up: PROJ does not open its database "
-                            "({}); memory is short, or proj-data is not installed",
-                            text.substr(0, 60), words));
+            throw IoError("io.read_reference",
+                          fmt::format("the CRS {} cannot be looked up: PROJ does not open its database ({}); memory is "
+                                      "short, or proj-data is not installed",
+                                      text.substr(0, 60), words));
         }
-        throw BadInput(
-            fmt::format("io.read_reference: '{}' is not a coordinate system{}; give a code such as EPSG:32633, "
-                        "or WKT",
-                        text.substr(0, 60), words.empty() ? "" : " (" + words + ")"));
+        throw BadInput("io.read_reference",
+                       fmt::format("'{}' is not a coordinate system{}; give a code such as EPSG:32633, or WKT",
+                                   text.substr(0, 60), words.empty() ? "" : " (" + words + ")"));
     }
-    throw_refusal(take_refusal(), "io.read_reference: the CRS");
+    throw_refusal(take_refusal(), {"io.read_reference", "the CRS"});
     reference.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     return reference;
 }
@@ -139,12 +138,12 @@ std::string metric_crs_around(OGRSpatialReference const& own, Vec2 middle_deg, d
         equal_area_around(std::round(middle_deg.x), std::round(middle_deg.y), is_on_earth(own) ? nullptr : &globe));
 }
 
-void require_half_a_globe(double west_deg, double east_deg, std::string const& what) {
-    refuse_if<BadInput>(east_deg - west_deg > 180.0,
+void require_half_a_globe(double west_deg, double east_deg, About const& about) {
+    refuse_if<BadInput>(east_deg - west_deg > 180.0, about.where,
                         "{} reaches over {:.0f} degrees of longitude, from {:.4g} to {:.4g}: no projection in metres "
                         "serves all of it. Cut a part out (gdal_translate -projwin, ogr2ogr -clipsrc), or name a CRS "
                         "(--crs) where the command has that option",
-                        what, east_deg - west_deg, west_deg, east_deg);
+                        about.name, east_deg - west_deg, west_deg, east_deg);
 }
 
 bool is_on_earth(OGRSpatialReference const& reference) {
@@ -218,8 +217,8 @@ std::string projected_crs(std::string const& text) {
     if (!is_projected_in_metres(reference)) {
         char const* unit = nullptr;
         reference.GetLinearUnits(&unit);
-        throw BadInput(fmt::format("io.projected_crs: {} is {}; give a projected one in metres, such as a UTM zone "
-                                   "(EPSG:32633)",
+        throw BadInput("io.projected_crs",
+                       fmt::format("{} is {}; give a projected one in metres, such as a UTM zone (EPSG:32633)",
                                    in_message(text),
                                    reference.IsGeographic() != 0  ? "geographic: its cells would not be square"
                                    : reference.IsProjected() != 0 ? fmt::format("in '{}'", unit)
@@ -239,7 +238,7 @@ std::string crs_in_words(std::string const& crs) {
 std::string utm_zone(double longitude_deg, double latitude_deg) {
     // Written so that NaN is rejected.
     refuse_if<BadInput>(!(std::fabs(longitude_deg) <= 360.0 && latitude_deg >= -80.0 && latitude_deg <= 84.0),
-                        "io.utm_zone: no UTM zone covers longitude {}, latitude {}; give the CRS of the grid",
+                        "io.utm_zone", "no UTM zone covers longitude {}, latitude {}; give the CRS of the grid",
                         longitude_deg, latitude_deg);
     auto const zone = static_cast<int>(std::floor((longitude_deg + 180.0) / 6.0));
     return fmt::format("EPSG:{}", (latitude_deg < 0.0 ? 32701 : 32601) + ((zone % 60) + 60) % 60);
@@ -273,11 +272,12 @@ double utm_stretch(std::string const& crs, DegreeBox const& box) {
     return stretch;
 }
 
-bool same_crs(std::string const& a, std::string const& b, std::string const& of_a, std::string const& of_b) {
+bool is_same_crs(std::string const& a, std::string const& b, About const& of_a, std::string const& of_b) {
     if (a.empty() != b.empty()) {
-        throw BadInput(fmt::format("{} has {}, {} has {}: assign the missing one (gdal_edit.py or ogr2ogr -a_srs "
+        throw BadInput(of_a.where,
+                       fmt::format("{} has {}, {} has {}: assign the missing one (gdal_edit.py or ogr2ogr -a_srs "
                                    "EPSG:n)",
-                                   of_a, in_message(a), of_b, in_message(b)));
+                                   of_a.name, in_message(a), of_b, in_message(b)));
     }
     if (a == b) {
         return true;
@@ -287,6 +287,10 @@ bool same_crs(std::string const& a, std::string const& b, std::string const& of_
     first.StripVertical();
     second.StripVertical();
     return first.IsSame(&second) != 0;
+}
+
+bool same_crs(std::string const& a, std::string const& b, std::string const& of_a, std::string const& of_b) {
+    return is_same_crs(a, b, {"io.same_crs", of_a}, of_b);
 }
 
 bool same_size(Grid const& a, Grid const& b) {
@@ -337,8 +341,8 @@ bool is_distorted(Grid const& grid) {
 }
 
 bool overlap_on_earth(Grid const& a, Grid const& b, std::string const& of_a, std::string const& of_b) {
-    DegreeBox const p = box_of(a, of_a);
-    DegreeBox const q = box_of(b, of_b);
+    DegreeBox const p = box_of(a, {"io.overlap_on_earth", of_a});
+    DegreeBox const q = box_of(b, {"io.overlap_on_earth", of_b});
     bool overlaps = false;
     for (double const turn : {-360.0, 0.0, 360.0}) {
         overlaps = overlaps || (p.west < q.east + turn && q.west + turn < p.east);
@@ -351,7 +355,7 @@ double zone_stretch(Grid const& grid) {
         return 0.0;
     }
     try {
-        return utm_stretch(grid.crs, box_of(grid, "the grid"));
+        return utm_stretch(grid.crs, box_of(grid, {"io.zone_stretch", "the grid"}));
     } catch (BadInput const&) { // too far away to be transformed
         return std::numeric_limits<double>::infinity();
     }
@@ -362,8 +366,9 @@ std::string metric_crs(Grid const& grid, std::string const& what) {
         GroundCell const ground = ground_cell(grid);
         return ground.unit == GridUnit::distorted ? ground.crs : grid.crs;
     }
-    DegreeBox const box = box_of(grid, what);
-    require_half_a_globe(box.west, box.east, what);
+    About const about{"io.metric_crs", what};
+    DegreeBox const box = box_of(grid, about);
+    require_half_a_globe(box.west, box.east, about);
     return metric_crs_around(read_reference(grid.crs), {0.5 * (box.west + box.east), 0.5 * (box.south + box.north)},
                              box.east - box.west);
 }

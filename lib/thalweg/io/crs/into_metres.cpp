@@ -102,7 +102,7 @@ std::optional<DegreeBox> degrees_of(FileBox const& box, OGRCoordinateTransformat
 
 // metric_crs_around the middle of a box whose coordinates are in `from`. Longitudes on both sides of 180 degrees form
 // one box if that is narrower. Throws BadInput when the middle has no longitude and latitude or the box spans more than
-// 180 degrees of longitude: "io.into_metres: name ...".
+// 180 degrees of longitude.
 std::string zone_of(FileBox const& given, OGRSpatialReference const& from, std::string const& name) {
     FileBox box = given;
     if (from.IsGeographic() != 0 && box.across_180 && box.high.x - box.low.x > 180.0 &&
@@ -116,16 +116,15 @@ std::string zone_of(FileBox const& given, OGRSpatialReference const& from, std::
     Vec2 turned = at;
     bool const on_earth = turn && turn->Transform(1, &turned.x, &turned.y) != 0 && std::fabs(turned.x) <= 360.0 &&
                           std::fabs(turned.y) <= 90.0;
-    refuse_if<BadInput>(
-        !on_earth,
-        "io.into_metres: the middle of {}, at ({}, {}), has no longitude and latitude in its CRS, {}; check both", name,
-        at.x, at.y, from.GetName());
+    refuse_if<BadInput>(!on_earth, "io.into_metres",
+                        "the middle of {}, at ({}, {}), has no longitude and latitude in its CRS, {}; check both", name,
+                        at.x, at.y, from.GetName());
     auto const degrees = degrees_of(box, *turn);
     bool const has_zone = turned.y >= -80.0 && turned.y <= 84.0;
     if (!has_zone || !degrees) {
         return utm_zone(turned.x, turned.y);
     }
-    require_half_a_globe(degrees->west, degrees->east, "io.into_metres: " + name);
+    require_half_a_globe(degrees->west, degrees->east, {"io.into_metres", name});
     return metric_crs_around(from, turned, degrees->east - degrees->west);
 }
 
@@ -275,7 +274,7 @@ IntoMetres::IntoMetres(OGRSpatialReference const& own, std::string const& wanted
     }
     OGRSpatialReference const to = read_reference(crs_);
     turn_->into.reset(OGRCreateCoordinateTransformation(&from, &to));
-    refuse_if<BadInput>(!turn_->into, "io.into_metres: {} cannot be reprojected to {}", name, crs_);
+    refuse_if<BadInput>(!turn_->into, "io.into_metres", "{} cannot be reprojected to {}", name, crs_);
 }
 
 IntoMetres::~IntoMetres() = default;

@@ -110,13 +110,13 @@ double height_unit_of(OGRLayer& layer, std::string const& source_crs) {
     layer.ResetReading();
     OGRFeatureUniquePtr const first(layer.GetNextFeature());
     layer.ResetReading();
-    driver.check(fmt::format("io.height_unit_of: layer {}", layer.GetName()));
+    driver.check("io.height_unit_of", fmt::format("layer {}", layer.GetName()));
     std::string const name = first && first->IsFieldSetAndNotNull(field) != 0 ? first->GetFieldAsString(field) : "m";
     auto const unit = unit_named(name);
     if (!unit) {
-        throw BadInput(fmt::format(
-            "io.height_unit_of: layer {}: the field z_unit holds '{}', which is not a unit of length (m, ft)",
-            layer.GetName(), name));
+        throw BadInput("io.height_unit_of",
+                       fmt::format("layer {}: the field z_unit holds '{}', which is not a unit of length (m, ft)",
+                                   layer.GetName(), name));
     }
     return *unit;
 }

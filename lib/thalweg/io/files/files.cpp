@@ -30,8 +30,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-[[noreturn]] void fail(std::string const& what, std::error_code reason) {
-    throw IoError(fmt::format("{}: {}", what, reason.message()));
+[[noreturn]] void fail(About const& about, std::error_code reason) {
+    throw IoError(about.where, fmt::format("{}: {}", about.name, reason.message()));
 }
 
 std::error_code last_error() {
@@ -40,7 +40,7 @@ std::error_code last_error() {
 
 // Flushes a file, or a folder's directory entries, to disk: a rename after that never leads to a file truncated by a
 // power failure.
-void make_durable(fs::path const& place, std::string const& who) {
+void make_durable(fs::path const& place, std::string const& where) {
     int const file = open(place.empty() ? "." : place.c_str(), O_RDONLY | O_CLOEXEC);
     bool const done = file >= 0 && fsync(file) == 0;
     int const reason = errno;
@@ -51,11 +51,11 @@ void make_durable(fs::path const& place, std::string const& who) {
     bool const has_none = reason == EINVAL || reason == ENOTSUP || reason == EROFS;
     std::error_code ignored;
     if (!done && !has_none && !(reason == EACCES && fs::is_directory(place, ignored))) {
-        fail(who + ": " + (place.empty() ? "." : place.string()), {reason, std::generic_category()});
+        fail({where, place.empty() ? "." : place.string()}, {reason, std::generic_category()});
     }
 }
 
-std::vector<fs::path> all_below(fs::path const& folder, std::string const& who) {
+std::vector<fs::path> all_below(fs::path const& folder, std::string const& where) {
     std::vector<fs::path> found;
     std::error_code error;
     fs::recursive_directory_iterator entry(folder, error);
@@ -64,23 +64,23 @@ std::vector<fs::path> all_below(fs::path const& folder, std::string const& who) 
         entry.increment(error);
     }
     if (error) {
-        fail(who + ": " + folder.string(), error);
+        fail({where, folder.string()}, error);
     }
     return found;
 }
 
 // The same for every file and folder below a folder, and for the folder. Each waits for the disk, whatever its size,
 // and those that wait together are served together.
-void make_all_durable(fs::path const& folder, std::string const& who) {
+void make_all_durable(fs::path const& folder, std::string const& where) {
     constexpr std::size_t most_threads = 8; // they only wait
-    std::vector<fs::path> const places = all_below(folder, who);
+    std::vector<fs::path> const places = all_below(folder, where);
     std::atomic<std::size_t> next = 0;
     std::mutex guard;
     std::exception_ptr failure;
     auto const work = [&] {
         try {
             for (std::size_t i = next++; i < places.size(); i = next++) {
-                make_durable(places[i], who);
+                make_durable(places[i], where);
             }
         } catch (...) {
             std::scoped_lock const lock(guard);
@@ -100,7 +100,7 @@ void make_all_durable(fs::path const& folder, std::string const& who) {
     if (failure) {
         std::rethrow_exception(failure);
     }
-    make_durable(folder, who);
+    make_durable(folder, where);
 }
 
 // A process id is meaningless on another host that sees the same folder.
@@ -163,9 +163,9 @@ void remove_stale_temporaries(fs::path const& folder) noexcept {
     }
 }
 
-void require(std::error_code error, std::string const& what) {
+void require(std::error_code error, About const& about) {
     if (error) {
-        fail(what, error);
+        fail(about, error);
     }
 }
 
@@ -182,8 +182,9 @@ bool is_plain(fs::path const& name) {
 // folder.
 void require_removable(fs::path const& folder, std::string const& name) {
     if (!is_plain(name)) {
-        throw BadInput(fmt::format("io.output_folder: '{}' in the list of an earlier run is not a valid path within {}",
-                                   name, folder.string()));
+        throw BadInput(
+            "io.OutputFolder",
+            fmt::format("'{}' in the list of an earlier run is not a valid path within {}", name, folder.string()));
     }
     fs::path place = folder;
     fs::path const relative(name);
@@ -196,8 +197,9 @@ void require_removable(fs::path const& folder, std::string const& name) {
             return;
         }
         if (last ? !fs::is_regular_file(status) : !fs::is_directory(status)) {
-            throw BadInput(fmt::format(
-                "io.output_folder: {} is no longer the file that an earlier run wrote: move it away", place.string()));
+            throw BadInput(
+                "io.OutputFolder",
+                fmt::format("{} is no longer the file that an earlier run wrote: move it away", place.string()));
         }
     }
 }
@@ -212,7 +214,7 @@ std::vector<std::string> files_below(fs::path const& folder) {
         }
         entry.increment(error);
     }
-    require(error, "io.output_folder: " + folder.string());
+    require(error, {"io.OutputFolder", folder.string()});
     std::ranges::sort(names);
     return names;
 }
@@ -236,7 +238,7 @@ public:
         make(to.parent_path());
         std::error_code error;
         fs::rename(from, to, error);
-        require(error, "io.output_folder: " + to.string());
+        require(error, {"io.OutputFolder", to.string()});
         done_.emplace_back(from, to);
     }
     void keep() {
@@ -252,7 +254,7 @@ private:
         }
         make(folder.parent_path());
         fs::create_directory(folder, error);
-        require(error, "io.output_folder: " + folder.string());
+        require(error, {"io.OutputFolder", folder.string()});
         made_.push_back(folder);
     }
 
@@ -280,28 +282,28 @@ std::string simple_name(std::string_view name) {
     return out;
 }
 
-NewFile::NewFile(std::string const& path, std::string who)
-    : who_(std::move(who)), file_(std::fopen(path.c_str(), "wbx")) {
+NewFile::NewFile(std::string const& path, About about)
+    : about_(std::move(about)), file_(std::fopen(path.c_str(), "wbx")) {
     if (file_ == nullptr) {
-        fail(who_, last_error());
+        fail(about_, last_error());
     }
 }
 
 void NewFile::append(std::string_view bytes) {
     if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) {
-        fail(who_, last_error());
+        fail(about_, last_error());
     }
 }
 
 void NewFile::close() {
     if (std::fclose(file_.release()) != 0) {
-        fail(who_, last_error());
+        fail(about_, last_error());
     }
 }
 
 OutputFolder::OutputFolder(std::string const& folder, Existing existing, std::vector<std::string> old_files)
     : old_files_(std::move(old_files)), adds_(existing == Existing::add) {
-    refuse_if<BadParameter>(folder.empty(), "io.output_folder: the name of the folder is empty");
+    refuse_if<BadParameter>(folder.empty(), "io.OutputFolder", "the name of the folder is empty");
     fs::path place = fs::path(folder).lexically_normal();
     if (!place.has_filename()) {
         place = place.parent_path(); // "out/"
@@ -310,16 +312,15 @@ OutputFolder::OutputFolder(std::string const& folder, Existing existing, std::ve
     std::error_code error;
     existed_ = fs::exists(place, error);
     if (existed_) {
-        refuse_if<BadInput>(!fs::is_directory(place, error), "io.output_folder: {} is not a folder", folder_);
+        refuse_if<BadInput>(!fs::is_directory(place, error), "io.OutputFolder", "{} is not a folder", folder_);
         bool const empty = fs::is_empty(place, error);
-        require(error, "io.output_folder: " + folder_);
-        refuse_if<BadInput>(!empty && existing == Existing::refuse,
-                            "io.output_folder: {} already exists: name another or use --overwrite", folder_);
-        refuse_if<BadInput>(
-            !empty && existing == Existing::replace && old_files_.empty(),
-            "io.output_folder: {} holds files but no report.json or export.json that lists them: nothing in it may be "
-            "replaced, name another folder",
-            folder_);
+        require(error, {"io.OutputFolder", folder_});
+        refuse_if<BadInput>(!empty && existing == Existing::refuse, "io.OutputFolder",
+                            "{} already exists: name another or use --overwrite", folder_);
+        refuse_if<BadInput>(!empty && existing == Existing::replace && old_files_.empty(), "io.OutputFolder",
+                            "{} holds files but no report.json or export.json that lists them: nothing in it may be "
+                            "replaced, name another folder",
+                            folder_);
         for (std::string const& name : old_files_) {
             require_removable(place, name);
         }
@@ -336,11 +337,11 @@ OutputFolder::OutputFolder(std::string const& folder, Existing existing, std::ve
     }
     for (std::string const& made : made_) {
         fs::create_directory(made, error);
-        require(error, "io.output_folder: " + made);
+        require(error, {"io.OutputFolder", made});
     }
     staging_ = stem;
     for (int again = 2; !fs::create_directory(staging_, error); ++again) {
-        require(error, "io.output_folder: " + staging_);
+        require(error, {"io.OutputFolder", staging_});
         staging_ = fmt::format("{}-{}", stem, again);
     }
 }
@@ -356,11 +357,11 @@ OutputFolder::~OutputFolder() {
 }
 
 std::string OutputFolder::path(std::string const& name) const {
-    refuse_if<BadParameter>(!is_plain(name), "io.output_folder: '{}' is not a valid path within {}", name, folder_);
+    refuse_if<BadParameter>(!is_plain(name), "io.OutputFolder", "'{}' is not a valid path within {}", name, folder_);
     fs::path const place = fs::path(staging_) / name;
     std::error_code error;
     fs::create_directories(place.parent_path(), error);
-    require(error, "io.output_folder: " + place.parent_path().string());
+    require(error, {"io.OutputFolder", place.parent_path().string()});
     return place.string();
 }
 
@@ -370,15 +371,15 @@ std::vector<std::string> OutputFolder::files() const {
 
 void OutputFolder::commit() {
     fs::path const folder(folder_);
-    std::string const who = "io.output_folder";
+    std::string const where = "io.OutputFolder";
     std::error_code error;
-    make_all_durable(staging_, who);
+    make_all_durable(staging_, where);
     if (!existed_) {
         // rename() would silently replace an empty folder created in the meantime; one with content stops it.
         fs::rename(staging_, folder, error);
-        require(error, "io.output_folder: " + folder_);
+        require(error, {"io.OutputFolder", folder_});
         committed_ = true;
-        make_durable(folder.parent_path(), who);
+        make_durable(folder.parent_path(), where);
         return;
     }
     std::vector<std::string> const names = files();
@@ -389,13 +390,12 @@ void OutputFolder::commit() {
         bool const ours = std::ranges::find(old_files_, name) != old_files_.end();
         if (!ours && fs::exists(fs::symlink_status(folder / name, error))) {
             if (adds_) {
-                throw BadInput(fmt::format("io.output_folder: {} already exists: name another or use --overwrite",
-                                           (folder / name).string()));
+                throw BadInput("io.OutputFolder", fmt::format("{} already exists: name another or use --overwrite",
+                                                              (folder / name).string()));
             }
-            throw BadInput(
-                fmt::format("io.output_folder: {} was not written by thalweg and will not be replaced: move it "
-                            "away",
-                            (folder / name).string()));
+            throw BadInput("io.OutputFolder",
+                           fmt::format("{} was not written by thalweg and will not be replaced: move it away",
+                                       (folder / name).string()));
         }
     }
     // The old files are moved aside first, so that every move has a free target and can be undone.
@@ -409,7 +409,7 @@ void OutputFolder::commit() {
     for (std::string const& name : names) {
         moves.move(fs::path(staging_) / name, folder / name);
     }
-    make_durable(folder, who);
+    make_durable(folder, where);
     moves.keep();
     committed_ = true;
     fs::remove_all(aside, error);
@@ -429,8 +429,8 @@ std::vector<std::string> files_there(std::string const& folder, std::vector<std:
         }
     }
     if (!there.empty() && existing == Existing::refuse) {
-        throw BadInput(fmt::format("io.files_there: {} already exists: name another or use --overwrite",
-                                   (fs::path(folder) / there.front()).string()));
+        throw BadInput("io.files_there", fmt::format("{} already exists: name another or use --overwrite",
+                                                     (fs::path(folder) / there.front()).string()));
     }
     return there;
 }
@@ -441,53 +441,54 @@ bool is_pipe_or_device(std::string const& path) {
     return fs::is_fifo(status) || fs::is_socket(status) || fs::is_character_file(status);
 }
 
-void refuse_pipe(std::string const& path, std::string const& what) {
-    refuse_if<BadInput>(is_pipe_or_device(path),
-                        "{} is a pipe or a device, and inputs are read more than once: write it to a file first", what);
+void refuse_pipe(std::string const& path, About const& about) {
+    refuse_if<BadInput>(is_pipe_or_device(path), about.where,
+                        "{} is a pipe or a device, and inputs are read more than once: write it to a file first",
+                        about.name);
 }
 
 std::string read_text(std::string const& path, std::int64_t max_bytes) {
-    std::string const what = "io.read_text: " + path;
-    refuse_pipe(path, what);
+    About const about{"io.read_text", path};
+    refuse_pipe(path, about);
     std::error_code error;
-    refuse_if<BadInput>(!fs::exists(path, error), "{} does not exist", what);
-    refuse_if<BadInput>(fs::is_directory(path, error), "{} is a folder", what);
+    refuse_if<BadInput>(!fs::exists(path, error), about.where, "{} does not exist", about.name);
+    refuse_if<BadInput>(fs::is_directory(path, error), about.where, "{} is a folder", about.name);
     File const file(std::fopen(path.c_str(), "rb"));
     if (file == nullptr) {
-        fail(what, last_error());
+        fail(about, last_error());
     }
     std::string text;
     std::vector<char> block(std::size_t{1} << 16U);
     while (std::size_t const count = std::fread(block.data(), 1, block.size(), file.get())) {
         text.append(block.data(), count);
-        refuse_if<BadInput>(static_cast<std::int64_t>(text.size()) > max_bytes, "{} is larger than {} bytes", what,
-                            max_bytes);
+        refuse_if<BadInput>(static_cast<std::int64_t>(text.size()) > max_bytes, about.where,
+                            "{} is larger than {} bytes", about.name, max_bytes);
     }
     if (std::ferror(file.get()) != 0) {
-        fail(what, last_error());
+        fail(about, last_error());
     }
     return text;
 }
 
 void write_text(std::string const& path, std::string_view text) {
-    NewFile file(path, "io.write_text: " + path);
+    NewFile file(path, {"io.write_text", path});
     file.append(text);
     file.close();
 }
 
 void copy_file(std::string const& from, std::string const& to) {
     std::error_code error;
-    refuse_if<BadInput>(!fs::is_regular_file(from, error), "io.copy_file: {} is not a file", from);
+    refuse_if<BadInput>(!fs::is_regular_file(from, error), "io.copy_file", "{} is not a file", from);
     fs::copy_file(from, to, fs::copy_options::none, error);
-    require(error, fmt::format("io.copy_file: {} to {}", from, to));
+    require(error, {"io.copy_file", fmt::format("{} to {}", from, to)});
 }
 
 OutputFile::OutputFile(std::string const& path, Existing existing) : path_(path), existing_(existing) {
-    refuse_if<BadParameter>(!fs::path(path).has_filename(), "io.output_file: '{}' is not a valid file name", path);
+    refuse_if<BadParameter>(!fs::path(path).has_filename(), "io.OutputFile", "'{}' is not a valid file name", path);
     fs::path const folder = fs::path(path).parent_path();
     std::error_code ignored;
     if (!folder.empty() && !fs::is_directory(folder, ignored)) {
-        throw BadInput(fmt::format("io.output_file: there is no folder {} for {}", folder.string(), path));
+        throw BadInput("io.OutputFile", fmt::format("there is no folder {} for {}", folder.string(), path));
     }
     require_place();
     remove_stale_temporaries(folder);
@@ -506,21 +507,21 @@ void OutputFile::require_place() const {
     if (!fs::exists(status)) {
         return;
     }
-    refuse_if<BadInput>(!fs::is_regular_file(status),
-                        "io.output_file: {} exists and is not a regular file: name another", path_);
-    refuse_if<BadInput>(existing_ == Existing::refuse,
-                        "io.output_file: {} already exists: name another or use --overwrite", path_);
+    refuse_if<BadInput>(!fs::is_regular_file(status), "io.OutputFile",
+                        "{} exists and is not a regular file: name another", path_);
+    refuse_if<BadInput>(existing_ == Existing::refuse, "io.OutputFile",
+                        "{} already exists: name another or use --overwrite", path_);
 }
 
 void OutputFile::commit() {
     require_place(); // something may have been created in the meantime
-    make_durable(staging_, "io.output_file");
+    make_durable(staging_, "io.OutputFile");
     std::error_code error;
     fs::rename(staging_, path_, error);
     if (error) {
-        throw IoError(fmt::format("io.output_file: {}: {}", path_, error.message()));
+        throw IoError("io.OutputFile", fmt::format("{}: {}", path_, error.message()));
     }
-    make_durable(fs::path(path_).parent_path(), "io.output_file");
+    make_durable(fs::path(path_).parent_path(), "io.OutputFile");
 }
 
 TemporaryFolder::TemporaryFolder(std::string const& name) {
@@ -529,17 +530,18 @@ TemporaryFolder::TemporaryFolder(std::string const& name) {
     std::error_code failed;
     fs::path const above = fs::temp_directory_path(failed);
     if (failed) {
-        throw IoError(fmt::format("io.temporary_folder: the folder for temporary files{} does not exist or is not a "
-                                  "folder: set TMPDIR to one that does",
-                                  set.empty() ? "" : fmt::format(", TMPDIR={},", set)));
+        throw IoError(
+            "io.TemporaryFolder",
+            fmt::format(
+                "the folder for temporary files{} does not exist or is not a folder: set TMPDIR to one that does",
+                set.empty() ? "" : fmt::format(", TMPDIR={},", set)));
     }
     remove_stale_temporaries(above);
     std::string folder = (above / fmt::format("{}-{}-XXXXXX", name, temporary_mark())).string();
     if (mkdtemp(folder.data()) == nullptr) {
-        throw IoError(
-            fmt::format("io.temporary_folder: no folder for temporary files can be made in {}: {}; set TMPDIR "
-                        "to another folder",
-                        above.string(), std::generic_category().message(errno)));
+        throw IoError("io.TemporaryFolder",
+                      fmt::format("no folder for temporary files can be made in {}: {}; set TMPDIR to another folder",
+                                  above.string(), std::generic_category().message(errno)));
     }
     path_ = folder;
 }

@@ -76,13 +76,6 @@ std::vector<std::string> files_there(std::string const& folder, std::vector<std:
 bool is_pipe_or_device(std::string const& path);
 
 /// \internal
-/// Rejects pipes and devices.
-/// \param path any
-/// \param what its name in messages
-/// \throws BadInput when is_pipe_or_device
-void refuse_pipe(std::string const& path, std::string const& what);
-
-/// \internal
 /// Reads a file.
 /// \param path of the file
 /// \param max_bytes limit of its size

@@ -23,8 +23,8 @@ constexpr std::size_t block = 512;
 std::string tar_entry(std::string const& name, std::string_view bytes) {
     constexpr std::size_t longest_name = 100;
     constexpr std::uint64_t size_limit = std::uint64_t{1} << 33; // 11 octal digits
-    refuse_if<BadParameter>(name.empty() || name.size() > longest_name || bytes.size() >= size_limit,
-                            "io.tar_entry: {} of {} bytes does not fit into a tar header", name, bytes.size());
+    refuse_if<BadParameter>(name.empty() || name.size() > longest_name || bytes.size() >= size_limit, "io.tar_entry",
+                            "{} of {} bytes does not fit into a tar header", name, bytes.size());
     constexpr std::size_t checksum_at = 148;
     std::string header(block, '\0');
     auto const put = [&](std::size_t at, std::string_view text) { header.replace(at, text.size(), text); };
@@ -56,14 +56,14 @@ std::string tar_end() {
 
 std::vector<TarEntry> tar_entries(std::string const& path) {
     std::ifstream file(path, std::ios::binary | std::ios::ate);
-    refuse_if<IoError>(!file, "io.tar_entries: {} cannot be opened", path);
+    refuse_if<IoError>(!file, "io.tar_entries", "{} cannot be opened", path);
     auto const size = static_cast<std::int64_t>(file.tellg());
     constexpr auto step = static_cast<std::int64_t>(block);
     std::vector<TarEntry> entries;
     std::int64_t at = 0;
     for (std::string header(block, '\0'); at + step <= size;) {
         file.seekg(at);
-        refuse_if<IoError>(!file.read(header.data(), step), "io.tar_entries: {} cannot be read", path);
+        refuse_if<IoError>(!file.read(header.data(), step), "io.tar_entries", "{} cannot be read", path);
         if (header.find_first_not_of('\0') == std::string::npos) {
             return entries;
         }
@@ -73,11 +73,11 @@ std::vector<TarEntry> tar_entries(std::string const& path) {
         std::int64_t const end = at + step + (bytes + step - 1) / step * step;
         refuse_if<BadInput>(header.compare(257, 5, "ustar") != 0 || fault != std::errc() || stop != digits + 11 ||
                                 end > size,
-                            "io.tar_entries: {} is cut off or damaged at byte {}", path, at);
+                            "io.tar_entries", "{} is cut off or damaged at byte {}", path, at);
         entries.push_back({header.c_str(), at, end});
         at = end;
     }
-    throw BadInput(fmt::format("io.tar_entries: {} is cut off at byte {}", path, at));
+    throw BadInput("io.tar_entries", fmt::format("{} is cut off at byte {}", path, at));
 }
 
 } // namespace thalweg::io

@@ -48,7 +48,7 @@ std::string zip_archive(std::string const& name, std::string_view bytes) {
     constexpr std::size_t headers = 200; // more than all but names and bytes take
     refuse_if<BadParameter>(name.empty() || name.size() > std::numeric_limits<std::uint16_t>::max() ||
                                 bytes.size() >= std::numeric_limits<std::uint32_t>::max() - 2 * name.size() - headers,
-                            "io.zip_archive: {} of {} bytes does not fit into a ZIP archive", name, bytes.size());
+                            "io.zip_archive", "{} of {} bytes does not fit into a ZIP archive", name, bytes.size());
     std::string const fields = common_fields(name, bytes);
     std::string archive = "PK\x03\x04" + fields + name;
     archive += bytes;

@@ -29,6 +29,7 @@
 
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/files/files.hpp>
+#include <thalweg/io/files/internal/files.hpp>
 #include <thalweg/io/gdal/internal/access.hpp>
 
 namespace thalweg::io {
@@ -59,16 +60,16 @@ void require_allowed(Source const& source) {
         return;
     }
     std::string const& path = source.path;
-    refuse_if<BadInput>(names_connection(path),
-                        "io.require_allowed: a recipe names files, and '{}' is a connection: name it on the command "
-                        "line, or convert it to a file (ogr2ogr)",
+    refuse_if<BadInput>(names_connection(path), "io.require_allowed",
+                        "a recipe names files, and '{}' is a connection: name it on the command line, or convert it to "
+                        "a file (ogr2ogr)",
                         path);
-    refuse_pipe(path, "io.require_allowed: " + path);
+    refuse_pipe(path, {"io.require_allowed", path});
     std::error_code ignored;
     auto const status = fs::status(path, ignored);
-    refuse_if<BadInput>(!fs::exists(status), "io.require_allowed: there is no file '{}'", path);
-    refuse_if<BadInput>(!fs::is_regular_file(status) && !fs::is_directory(status),
-                        "io.require_allowed: {} is neither a file nor a folder", path);
+    refuse_if<BadInput>(!fs::exists(status), "io.require_allowed", "there is no file '{}'", path);
+    refuse_if<BadInput>(!fs::is_regular_file(status) && !fs::is_directory(status), "io.require_allowed",
+                        "{} is neither a file nor a folder", path);
 }
 
 namespace {
@@ -517,19 +518,19 @@ Refusal take_refusal() {
     return std::exchange(refused, {});
 }
 
-void throw_refusal(Refusal const& refusal, std::string const& what) {
-    refuse_if<BadInput>(!refusal.address.empty(),
+void throw_refusal(Refusal const& refusal, About const& about) {
+    refuse_if<BadInput>(!refusal.address.empty(), about.where,
                         "{} makes a connection ({}), and thalweg connects only to what the command line names; take "
                         "the address out of the file",
-                        what, refusal.address);
+                        about.name, refusal.address);
     refuse_if<BadInput>(
-        !refusal.pipe.empty(),
-        "{} needs {}, which is a pipe or a device, and inputs are read more than once: write it to a file first", what,
-        refusal.pipe);
-    refuse_if<BadInput>(!refusal.grid.empty(),
+        !refusal.pipe.empty(), about.where,
+        "{} needs {}, which is a pipe or a device, and inputs are read more than once: write it to a file first",
+        about.name, refusal.pipe);
+    refuse_if<BadInput>(!refusal.grid.empty(), about.where,
                         "{} names {}, and a CRS names grids of PROJ's own folders (projinfo --searchpaths): copy it "
                         "there and leave its folder out",
-                        what, refusal.grid);
+                        about.name, refusal.grid);
 }
 
 void confine_proj(pj_ctx* context) {

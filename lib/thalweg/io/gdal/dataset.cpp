@@ -25,6 +25,7 @@
 
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/files/files.hpp>
+#include <thalweg/io/files/internal/files.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/access.hpp>
@@ -98,7 +99,7 @@ public:
     explicit UnchangedFile(fs::path const& file) : path_(file) {
         for (char const* const beside : {"", "-journal", "-wal"}) { // SQLite opens these on its own
             std::string const path = file.string() + beside;
-            refuse_pipe(path, "io.UnchangedFile: " + path);
+            refuse_pipe(path, {"io.open_unchanged", path});
         }
         std::error_code ignored;
         if (!fs::is_regular_file(file, ignored)) {
@@ -126,11 +127,13 @@ public:
                 }
             }
         } catch (fs::filesystem_error const& error) {
-            throw IoError(fmt::format("io.UnchangedFile: {} has changes in {}, and no copy of both can be made: {}",
-                                      file.string(), wal_of(file).filename().string(), error.what()));
+            throw IoError("io.open_unchanged",
+                          fmt::format("{} has changes in {}, and no copy of both can be made: {}", file.string(),
+                                      wal_of(file).filename().string(), error.what()));
         }
-        throw IoError(fmt::format(
-            "io.UnchangedFile: {} is being written by another program; close it there and try again", file.string()));
+        throw IoError(
+            "io.open_unchanged",
+            fmt::format("{} is being written by another program; close it there and try again", file.string()));
     }
 
     // The path to open.
@@ -209,9 +212,10 @@ void refuse_other_format(std::string const& name, std::string const& path) {
     GDALDriverH const driver = GDALIdentifyDriver(name.c_str(), nullptr);
     std::string const format = driver == nullptr ? "" : GDALGetDriverShortName(driver);
     refuse_if<BadInput>(driver != nullptr && std::ranges::find(recipe_formats, format) == recipe_formats.end(),
-                        "io.recipe_formats: {} is in the format {}, and a recipe names files that hold their data "
-                        "themselves, such as GeoPackage, Shapefile, GeoJSON, FlatGeobuf, CSV and GeoTIFF: convert it "
-                        "(ogr2ogr, gdal_translate), or name it on the command line",
+                        "io.open_unchanged",
+                        "{} is in the format {}, and a recipe names files that hold their data themselves, such as "
+                        "GeoPackage, Shapefile, GeoJSON, FlatGeobuf, CSV and GeoTIFF: convert it (ogr2ogr, "
+                        "gdal_translate), or name it on the command line",
                         path, format);
 }
 
@@ -219,7 +223,7 @@ void refuse_other_format(std::string const& name, std::string const& path) {
 void require_own_tables(GDALDataset& package, std::string const& path) {
     OGRLayer* const tables = package.ExecuteSQL(
         "SELECT name, sql FROM sqlite_master WHERE type = 'table' AND (rootpage IS NULL OR rootpage < 1)", nullptr, "");
-    refuse_if<BadInput>(tables == nullptr, "io.recipe_formats: the tables of {} cannot be listed", path);
+    refuse_if<BadInput>(tables == nullptr, "io.open_unchanged", "the tables of {} cannot be listed", path);
     std::string foreign;
     for (auto const& row : *tables) {
         if (is_foreign_table(row->GetFieldAsString(1))) {
@@ -227,10 +231,10 @@ void require_own_tables(GDALDataset& package, std::string const& path) {
         }
     }
     package.ReleaseResultSet(tables);
-    refuse_if<BadInput>(!foreign.empty(),
-                        "io.recipe_formats: the table {} of {} is virtual: it may read any file; copy the data into a "
-                        "new GeoPackage (ogr2ogr)",
-                        foreign, path);
+    refuse_if<BadInput>(
+        !foreign.empty(), "io.open_unchanged",
+        "the table {} of {} is virtual: it may read any file; copy the data into a new GeoPackage (ogr2ogr)", foreign,
+        path);
 }
 
 constexpr std::array<char const*, 2> databases{"PostgreSQL", nullptr};
@@ -287,7 +291,7 @@ Dataset opened(std::string const& path, unsigned kinds, char const* const* drive
     Dataset data(
         GDALDataset::Open(path.c_str(), kinds | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, drivers, options.List()),
         {std::move(held)});
-    throw_refusal(take_refusal(), "io.open_unchanged: " + shown);
+    throw_refusal(take_refusal(), {"io.open_unchanged", shown});
     return data;
 }
 
@@ -426,22 +430,22 @@ std::string file_of_part(std::string const& path) {
     return fs::is_regular_file(file, ignored) ? file : "";
 }
 
-void refuse_folder(std::string const& path, std::string const& what) {
+void refuse_folder(std::string const& path, About const& about) {
     std::error_code ignored;
-    refuse_if<BadInput>(fs::is_directory(path, ignored),
-                        "{} is a folder, and holds nothing that GDAL reads as a whole: name a file in it", what);
+    refuse_if<BadInput>(fs::is_directory(path, ignored), about.where,
+                        "{} is a folder, and holds nothing that GDAL reads as a whole: name a file in it", about.name);
 }
 
-Dataset open_file(Source const& source, unsigned kinds, std::string const& what) {
+Dataset open_file(Source const& source, unsigned kinds, About const& about) {
     // GDAL takes addresses and connection strings for file names.
     if (std::error_code ignored; !fs::exists(source.path, ignored)) {
         std::string const file = file_of_part(source.path);
         if (file.empty()) {
-            throw BadInput(what + " does not exist");
+            throw BadInput(about.where, about.name + " does not exist");
         }
-        Dataset part = open_part(open_file({file, source.access}, kinds, what), source.path);
+        Dataset part = open_part(open_file({file, source.access}, kinds, about), source.path);
         if (part == nullptr) {
-            throw BadInput(fmt::format("{} cannot be read: {}", what, CPLGetLastErrorMsg()));
+            throw BadInput(about.where, fmt::format("{} cannot be read: {}", about.name, CPLGetLastErrorMsg()));
         }
         return part;
     }
@@ -451,9 +455,10 @@ Dataset open_file(Source const& source, unsigned kinds, std::string const& what)
         std::string words = CPLGetLastErrorMsg();
         words = words.empty() ? "its format is not known" : words;
         words.erase(words.find_last_not_of('.') + 1);
-        refuse_folder(source.path, what);
+        refuse_folder(source.path, about);
         std::string const other = data_beside(source.path);
-        throw BadInput(fmt::format("{} cannot be read: {}{}", what, words,
+        throw BadInput(about.where,
+                       fmt::format("{} cannot be read: {}{}", about.name, words,
                                    other.empty() ? "" : fmt::format("; its data are in {}: name that file", other)));
     }
     return dataset;

@@ -92,18 +92,19 @@ std::string Driver::take() const {
     return words;
 }
 
-void Driver::check(std::string const& what) const {
+void Driver::check(std::string const& where, std::string const& name) const {
     if (auto const words = take(); !words.empty()) {
-        throw_refusal(take_refusal(), what);
+        throw_refusal(take_refusal(), {where, name});
+        std::string const beginning = name.empty() ? "" : name + ": ";
         refuse_if<BadInput>(
-            words.find("ALLOW_NETWORK_ACCESS=NO") != std::string::npos,
-            "{}: thalweg connects only to what the command line names; take the address out of the file ({})", what,
+            words.find("ALLOW_NETWORK_ACCESS=NO") != std::string::npos, where,
+            "{}thalweg connects only to what the command line names; take the address out of the file ({})", beginning,
             words);
-        refuse_if<BadInput>(words.find("crs not found") != std::string::npos,
-                            "{}: it names a CRS that does not exist ({}); correct it, or assign another (ogr2ogr or "
+        refuse_if<BadInput>(words.find("crs not found") != std::string::npos, where,
+                            "{}it names a CRS that does not exist ({}); correct it, or assign another (ogr2ogr or "
                             "gdal_edit.py -a_srs EPSG:n)",
-                            what, words);
-        throw IoError(what + ": " + words);
+                            beginning, words);
+        throw IoError(where, beginning + words);
     }
 }
 

@@ -17,10 +17,11 @@ public:
     Driver(Driver const&) = delete;
     Driver& operator=(Driver const&) = delete;
     /// Throws errors that GDAL reported since the last call.
-    /// \param what "io.write_dem: out/dem.tif"
+    /// \param where the public function that was called: "io.write_dem"
+    /// \param name of the file, for messages: "out/dem.tif"; "": the call has none
     /// \throws IoError with GDAL's message
     /// \throws BadInput when a file requested a connection or names a CRS that does not exist
-    void check(std::string const& what) const;
+    void check(std::string const& where, std::string const& name = "") const;
     /// \return GDAL's messages since the last call, for the caller's own error; "": none
     std::string take() const;
 

@@ -32,15 +32,14 @@ std::string base64(std::span<std::uint8_t const> bytes) {
     for (std::size_t at = 0; at < bytes.size(); at += piece) {
         std::unique_ptr<char, VsiFree> const part(
             CPLBase64Encode(static_cast<int>(std::min(piece, bytes.size() - at)), bytes.data() + at));
-        refuse_if<IoError>(part == nullptr, "io.base64: out of memory");
+        refuse_if<IoError>(part == nullptr, "io.base64", "out of memory");
         text += part.get();
     }
     return text;
 }
 
 std::string packed(std::span<std::uint8_t const> bytes) {
-    std::string const what = "io.packed";
-    refuse_if<BadInput>(bytes.size() > most, "{}: {} bytes are more than the {} that can be packed at once", what,
+    refuse_if<BadInput>(bytes.size() > most, "io.packed", "{} bytes are more than the {} that can be packed at once",
                         bytes.size(), most);
     Driver const driver;
     std::uint8_t const none = 0;
@@ -48,8 +47,8 @@ std::string packed(std::span<std::uint8_t const> bytes) {
     std::unique_ptr<void, VsiFree> const stream(
         CPLZLibDeflate(bytes.empty() ? &none : bytes.data(), bytes.size(), level, nullptr, 0, &size));
     if (stream == nullptr) {
-        driver.check(what);
-        throw IoError(what + " failed");
+        driver.check("io.packed");
+        throw IoError("io.packed", "io.packed failed");
     }
     return base64({static_cast<std::uint8_t const*>(stream.get()), size});
 }

@@ -63,10 +63,10 @@ public:
         if (!is_text && !is_virtual(head_of(name))) {
             return;
         }
-        refuse_if<BadInput>(depth > deepest,
-                            "io.virtual_files: {} names virtual files that name others, more than "
-                            "{} deep: make a GeoTIFF of it (gdal_translate)",
-                            path_, deepest);
+        refuse_if<BadInput>(
+            depth > deepest, "io.open_unchanged",
+            "{} names virtual files that name others, more than {} deep: make a GeoTIFF of it (gdal_translate)", path_,
+            deepest);
         CPLErrorHandlerPusher const quiet(CPLQuietErrorHandler);
         Tree const tree(is_text ? CPLParseXMLString(name.c_str()) : CPLParseXMLFile(name.c_str()));
         look(tree.get(), is_text ? "" : fs::path(name).parent_path(), depth);
@@ -77,8 +77,9 @@ private:
         for (; node != nullptr; node = node->psNext) {
             refuse_if<BadInput>(node->eType == CXT_Attribute && EQUAL(node->pszValue, "subClass") &&
                                     node->psChild != nullptr && EQUAL(node->psChild->pszValue, "VRTRawRasterBand"),
-                                "io.virtual_files: {} reads the bytes of another file as heights (VRTRawRasterBand), "
-                                "whatever that file is: convert the file itself to GeoTIFF (gdal_translate)",
+                                "io.open_unchanged",
+                                "{} reads the bytes of another file as heights (VRTRawRasterBand), whatever that file "
+                                "is: convert the file itself to GeoTIFF (gdal_translate)",
                                 path_);
             bool const names_source = node->eType == CXT_Element && (EQUAL(node->pszValue, "SourceFilename") ||
                                                                      EQUAL(node->pszValue, "SourceDataset") ||
@@ -103,11 +104,11 @@ private:
         fs::path const near = fs::weakly_canonical(fs::absolute(path_, failed), failed).parent_path();
         fs::path const own = fs::weakly_canonical(fs::absolute(path_, failed).parent_path(), failed);
         std::string const real = fs::weakly_canonical(fs::absolute(source, failed), failed).string();
-        refuse_if<BadInput>(
-            !real.starts_with((near / "").string()) && !real.starts_with((own / "").string()),
-            "io.virtual_files: {} is a virtual file (VRT), though its name does not say so, and names {} "
-            "outside its folder: if you know it, rename it to .vrt",
-            path_, source.string());
+        refuse_if<BadInput>(!real.starts_with((near / "").string()) && !real.starts_with((own / "").string()),
+                            "io.open_unchanged",
+                            "{} is a virtual file (VRT), though its name does not say so, and names {} outside its "
+                            "folder: if you know it, rename it to .vrt",
+                            path_, source.string());
     }
 
     std::string const& path_;

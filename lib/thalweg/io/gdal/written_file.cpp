@@ -179,14 +179,14 @@ void install_written() {
 
 } // namespace
 
-WrittenFile::WrittenFile(std::string const& path, std::string who)
-    : who_(std::move(who)), path_(path), state_(std::make_shared<State>()) {
+WrittenFile::WrittenFile(std::string const& path, About about)
+    : about_(std::move(about)), path_(path), state_(std::make_shared<State>()) {
     static std::atomic<int> made{0};
     install_written();
     constexpr mode_t everybody = 0666; // less the user's mask
     state_->file = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, everybody);
     if (state_->file < 0) {
-        throw IoError(fmt::format("{}: {}", who_, std::generic_category().message(errno)));
+        throw IoError(about_.where, about_.beginning() + std::generic_category().message(errno));
     }
     std::string const name = fmt::format("{}/{}", ++made, std::filesystem::path(path).filename().string());
     name_ = written_prefix + name;
@@ -208,7 +208,7 @@ WrittenFile::~WrittenFile() {
 
 void WrittenFile::check() const {
     if (state_->error != 0) {
-        throw IoError(fmt::format("{}: {}", who_, std::generic_category().message(state_->error)));
+        throw IoError(about_.where, about_.beginning() + std::generic_category().message(state_->error));
     }
 }
 
@@ -219,7 +219,7 @@ void WrittenFile::close() {
         int const error = errno;
         std::error_code ignored;
         std::filesystem::remove(path_, ignored);
-        throw IoError(fmt::format("{}: {}", who_, std::generic_category().message(error)));
+        throw IoError(about_.where, about_.beginning() + std::generic_category().message(error));
     }
 }
 

@@ -19,17 +19,18 @@
 namespace thalweg::io {
 namespace {
 
-void require_finite(LatticeMesh const& mesh, std::string const& what) {
-    refuse_if<BadInput>(mesh.triangles.empty(), "{}: the mesh has no triangles", what);
+void require_finite(LatticeMesh const& mesh, About const& about) {
+    refuse_if<BadInput>(mesh.triangles.empty(), about.where, "{}: the mesh has no triangles", about.name);
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-        refuse_if<BadInput>(!is_finite(mesh.vertices[i]), "{}: vertex {} is not finite", what, i + 1);
+        refuse_if<BadInput>(!is_finite(mesh.vertices[i]), about.where, "{}: vertex {} is not finite", about.name,
+                            i + 1);
     }
 }
 
 /// Writes a large file part by part.
 class MeshBytes {
 public:
-    MeshBytes(std::string const& path, std::string const& who, Run const& run) : file_(path, who), run_(run) {}
+    MeshBytes(std::string const& path, About const& about, Run const& run) : file_(path, about), run_(run) {}
 
     std::string& bytes() { return bytes_; }
     void end_of_item(std::size_t item, std::size_t items) {
@@ -54,11 +55,11 @@ private:
 } // namespace
 
 void write_stl(LatticeMesh const& mesh, std::string const& path, Run const& run, std::string const& unit) {
-    std::string const what = "io.write_stl: " + path;
-    require_finite(mesh, what);
-    refuse_if<BadInput>(mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max(),
-                        "{}: {} triangles: STL holds at most 2^32 - 1", what, mesh.triangles.size());
-    MeshBytes out(path, what, run);
+    About const about{"io.write_stl", path};
+    require_finite(mesh, about);
+    refuse_if<BadInput>(mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max(), about.where,
+                        "{}: {} triangles: STL holds at most 2^32 - 1", about.name, mesh.triangles.size());
+    MeshBytes out(path, about, run);
     std::string header = "thalweg, " + unit + ", Z up"; // must not begin with "solid": that would be text
     header.resize(80, ' ');
     out.bytes() += header;
@@ -86,10 +87,11 @@ void write_stl(LatticeMesh const& mesh, std::string const& path, Run const& run,
 }
 
 void write_textured_obj(LatticeMesh const& mesh, std::string const& path, ObjNames const& names, Run const& run) {
-    std::string const what = "io.write_textured_obj: " + path;
-    require_finite(mesh, what);
-    refuse_if<BadInput>(mesh.places.size() != mesh.vertices.size(), "{}: the mesh has no places in a picture", what);
-    MeshBytes out(path, what, run);
+    About const about{"io.write_textured_obj", path};
+    require_finite(mesh, about);
+    refuse_if<BadInput>(mesh.places.size() != mesh.vertices.size(), about.where,
+                        "{}: the mesh has no places in a picture", about.name);
+    MeshBytes out(path, about, run);
     auto const text = [&]<class... Values>(fmt::format_string<Values...> words, Values&&... values) {
         fmt::format_to(std::back_inserter(out.bytes()), words, std::forward<Values>(values)...);
     };

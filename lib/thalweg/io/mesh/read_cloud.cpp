@@ -144,10 +144,10 @@ Classes classes_named(std::string const& words) {
         std::uint8_t number = 0;
         auto const [stop, error] = std::from_chars(word.data(), word.data() + word.size(), number);
         bool const is_number = error == std::errc() && stop == word.data() + word.size();
-        refuse_if<BadParameter>(!is_number && std::ranges::find(known, word) == known.end(),
-                                "io.read_points: '{}' is not a class of points: give ground, water, all or numbers "
-                                "from 0 to 255, separated by commas.{}",
-                                word, did_you_mean(word, known));
+        refuse_if<BadParameter>(
+            !is_number && std::ranges::find(known, word) == known.end(), "io.read_points",
+            "'{}' is not a class of points: give ground, water, all or numbers from 0 to 255, separated by commas.{}",
+            word, did_you_mean(word, known));
         classes |= word == "ground"  ? ground_classes()
                    : word == "water" ? Classes().set(static_cast<std::size_t>(PointClass::water))
                    : word == "all"   ? ~noise_classes()
@@ -187,7 +187,7 @@ ChosenPoints choose_classes(Census const& census, ReadPointsParams const& params
     if (named.empty() && sum_of(census, ~(unclassified | noise_classes())).count == 0) {
         chosen = {~noise_classes(), sum_of(census, unclassified), true};
     }
-    refuse_if<BadInput>(chosen.points.count == 0, "io.read_points: {} has no points of {}, but of {}{}", name,
+    refuse_if<BadInput>(chosen.points.count == 0, "io.read_points", "{} has no points of {}, but of {}{}", name,
                         named.empty() ? "ground (classes 2 and 8)" : "the classes " + named, census_in_words(census),
                         params.classes ? ": name one of them by --classes" : "");
     return chosen;
@@ -356,10 +356,8 @@ private:
     }
 
     void grow() {
-        refuse_if<BadInput>(entries_.size() >= none / 2,
-                            "io.read_points: more than {} cells have points; name larger "
-                            "ones (thin)",
-                            none / 2);
+        refuse_if<BadInput>(entries_.size() >= none / 2, "io.read_points",
+                            "more than {} cells have points; name larger ones (thin)", none / 2);
         numbers_ = std::vector<std::uint32_t>(2 * numbers_.size(), none);
         for (std::size_t i = 0; i < entries_.size(); ++i) {
             number_of(entries_[i].cell) = static_cast<std::uint32_t>(i);
@@ -433,10 +431,9 @@ Cloud take_thinned(CloudFile& file, TakenPoints const& taken, OfClass const& poi
     LasHeader const& header = file.header;
     CloudCells const cells(metres, side_m, points);
     constexpr double most = 4294967295.0;
-    refuse_if<BadParameter>(!(cells.cols() < most) || !(cells.rows() < most),
-                            "io.read_points: thin is {} m, and {} is more than {:.0f} such cells wide; name a larger "
-                            "one",
-                            side_m, header.name, most);
+    refuse_if<BadParameter>(!(cells.cols() < most) || !(cells.rows() < most), "io.read_points",
+                            "thin is {} m, and {} is more than {:.0f} such cells wide; name a larger one", side_m,
+                            header.name, most);
     NearestPoints nearest;
     file.each_point(0.7, 1.0, run, [&](LasPoint const& p) {
         if (taken.has(p)) {
@@ -470,9 +467,8 @@ Cloud read_cloud(LasHeader const& header, ReadPointsParams const& params, OGRSpa
     }
     CloudFile file(header);
     Census const census = count_classes(file, run);
-    refuse_if<BadInput>(sum_of(census, ~Classes()).count == 0,
-                        "io.read_points: all {} points of {} are marked as withheld: not to be used", header.count,
-                        header.name);
+    refuse_if<BadInput>(sum_of(census, ~Classes()).count == 0, "io.read_points",
+                        "all {} points of {} are marked as withheld: not to be used", header.count, header.name);
     ChosenPoints const chosen = choose_classes(census, params, header.name);
     OfClass const& points = chosen.points;
     TakenPoints const taken(header, chosen, params);
@@ -483,7 +479,7 @@ Cloud read_cloud(LasHeader const& header, ReadPointsParams const& params, OGRSpa
     Cloud cloud = side_m > 0.0 ? take_thinned(file, taken, points, metres, side_m, run)
                                : take_points(file, taken, points.count, run);
     cloud.findings.insert(cloud.findings.begin(), finding_of(chosen, header));
-    refuse_if<BadInput>(cloud.points.empty(), "io.read_points: all points of {} have the height {:.9g} of --nodata",
+    refuse_if<BadInput>(cloud.points.empty(), "io.read_points", "all points of {} have the height {:.9g} of --nodata",
                         header.name, params.nodata.value_or(0.0));
     return cloud;
 }

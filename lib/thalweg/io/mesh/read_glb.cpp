@@ -95,18 +95,19 @@ Placement place_of(CPLJSONObject const& node) {
 
 class GlbReader {
 public:
-    GlbReader(std::string const& bytes, std::string const& what) : bytes_(bytes), what_(what) {
+    GlbReader(std::string const& bytes, About const& about) : bytes_(bytes), about_(about) {
         constexpr std::uint32_t magic = 0x46546C67;
         constexpr std::uint32_t json_chunk = 0x4E4F534A;
         constexpr std::uint32_t bin_chunk = 0x004E4942;
         constexpr std::size_t head = 20;
         refuse_if<BadInput>(bytes.size() < head || word(0) != magic || word(4) != 2 || word(16) != json_chunk,
-                            "{} is not a GLB of version 2", what_);
+                            about_.where, "{} is not a GLB of version 2", about_.name);
         std::size_t const text = word(12);
-        refuse_if<BadInput>(text > bytes.size() - head, "{} ends within its description", what_);
+        refuse_if<BadInput>(text > bytes.size() - head, about_.where, "{} ends within its description", about_.name);
         CPLErrorStateBackuper const kept;
         CPLErrorHandlerPusher const quiet(CPLQuietErrorHandler);
-        refuse_if<BadInput>(!document_.LoadMemory(bytes.substr(head, text)), "{}: its description is no JSON", what_);
+        refuse_if<BadInput>(!document_.LoadMemory(bytes.substr(head, text)), about_.where,
+                            "{}: its description is no JSON", about_.name);
         json_ = document_.GetRoot();
         std::size_t const next = head + text;
         if (bytes.size() >= next + 8 && word(next + 4) == bin_chunk) {
@@ -141,8 +142,8 @@ private:
 
     CPLJSONObject item(char const* list, int number) const {
         CPLJSONArray const items = list_of(json_.GetObj(list));
-        refuse_if<BadInput>(number < 0 || number >= items.Size(), "{} has no entry {} among its {}", what_, number,
-                            list);
+        refuse_if<BadInput>(number < 0 || number >= items.Size(), about_.where, "{} has no entry {} among its {}",
+                            about_.name, number, list);
         return items[number];
     }
 
@@ -152,14 +153,16 @@ private:
             std::string const name = needed[i].ToString();
             refuse_if<BadInput>(name.find("draco") != std::string::npos || name.find("meshopt") != std::string::npos ||
                                     name.find("quantization") != std::string::npos,
-                                "{} needs {}, which is not read: export it without compression", what_, name);
+                                about_.where, "{} needs {}, which is not read: export it without compression",
+                                about_.name, name);
         }
     }
 
     void add_node(int number, Placement const& above, int depth) {
         constexpr int deepest = 64;
         constexpr int most_nodes = 100'000;
-        refuse_if<BadInput>(depth > deepest || ++visited_ > most_nodes, "{} has nodes within nodes without end", what_);
+        refuse_if<BadInput>(depth > deepest || ++visited_ > most_nodes, about_.where,
+                            "{} has nodes within nodes without end", about_.name);
         CPLJSONObject const node = item("nodes", number);
         Placement const place = product(above, place_of(node));
         if (node.GetObj("mesh").IsValid()) {
@@ -183,25 +186,26 @@ private:
 
     void add_part(CPLJSONObject const& part, Placement const& place) {
         Samples const positions = samples_of(part.GetInteger("attributes/POSITION", -1), "VEC3");
-        refuse_if<BadInput>(positions.type != of_float, "{}: its positions are no floating-point numbers", what_);
+        refuse_if<BadInput>(positions.type != of_float, about_.where, "{}: its positions are no floating-point numbers",
+                            about_.name);
         std::size_t const first = out_.tin.vertices.size();
-        refuse_if<BadInput>(first + positions.count > std::numeric_limits<std::uint32_t>::max(),
-                            "{} has too many vertices", what_);
+        refuse_if<BadInput>(first + positions.count > std::numeric_limits<std::uint32_t>::max(), about_.where,
+                            "{} has too many vertices", about_.name);
         for (std::size_t i = 0; i < positions.count; ++i) {
             std::size_t const at = positions.begin + i * positions.stride;
             auto const number = [&](std::size_t k) {
                 return static_cast<double>(std::bit_cast<float>(word(at + 4 * k)));
             };
             Vec3 const v = placed(place, {number(0), number(1), number(2)});
-            refuse_if<BadInput>(!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z),
-                                "{}: vertex {} is at no finite place", what_, i);
+            refuse_if<BadInput>(!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z), about_.where,
+                                "{}: vertex {} is at no finite place", about_.name, i);
             out_.tin.vertices.push_back(v);
         }
         std::vector<std::uint32_t> const corners = corners_of(part, positions.count);
         for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
             auto const corner = [&](std::size_t k) {
-                refuse_if<BadInput>(corners[i + k] >= positions.count,
-                                    "{}: a triangle names a vertex that is not there", what_);
+                refuse_if<BadInput>(corners[i + k] >= positions.count, about_.where,
+                                    "{}: a triangle names a vertex that is not there", about_.name);
                 return static_cast<std::uint32_t>(first + corners[i + k]);
             };
             out_.tin.triangles.push_back({corner(0), corner(1), corner(2)});
@@ -218,7 +222,8 @@ private:
         }
         Samples const numbers = samples_of(part.GetInteger("indices", -1), "SCALAR");
         std::size_t const bytes = bytes_of(numbers.type);
-        refuse_if<BadInput>(numbers.type == of_float, "{}: the corners of its triangles are no whole numbers", what_);
+        refuse_if<BadInput>(numbers.type == of_float, about_.where,
+                            "{}: the corners of its triangles are no whole numbers", about_.name);
         for (std::size_t i = 0; i < numbers.count; ++i) {
             std::uint32_t corner = 0;
             for (std::size_t k = 0; k < bytes; ++k) {
@@ -254,12 +259,12 @@ private:
 
     Samples samples_of(int number, std::string_view shape) const {
         CPLJSONObject const accessor = item("accessors", number);
-        refuse_if<BadInput>(accessor.GetObj("sparse").IsValid() || accessor.GetString("type") != shape,
-                            "{}: accessor {} is sparse or not of {}", what_, number, shape);
+        refuse_if<BadInput>(accessor.GetObj("sparse").IsValid() || accessor.GetString("type") != shape, about_.where,
+                            "{}: accessor {} is sparse or not of {}", about_.name, number, shape);
         CPLJSONObject const view = item("bufferViews", accessor.GetInteger("bufferView", -1));
         refuse_if<BadInput>(view.GetInteger("buffer", 0) != 0 || list_of(json_.GetObj("buffers")).Size() > 1 ||
                                 item("buffers", 0).GetObj("uri").IsValid(),
-                            "{} keeps its geometry in other files: export it as one GLB", what_);
+                            about_.where, "{} keeps its geometry in other files: export it as one GLB", about_.name);
         Samples samples;
         samples.type = accessor.GetInteger("componentType", 0);
         samples.count = size_in(accessor, "count");
@@ -270,7 +275,7 @@ private:
         bool const is_inside =
             samples.count == 0 || (samples.begin <= end_ && size <= end_ - samples.begin &&
                                    samples.count - 1 <= (end_ - samples.begin - size) / samples.stride);
-        refuse_if<BadInput>(!is_inside, "{} ends within accessor {}", what_, number);
+        refuse_if<BadInput>(!is_inside, about_.where, "{} ends within accessor {}", about_.name, number);
         return samples;
     }
 
@@ -288,7 +293,7 @@ private:
     }
 
     std::string const& bytes_;
-    std::string const& what_;
+    About const& about_;
     CPLJSONDocument document_;
     CPLJSONObject json_;
     std::size_t begin_ = 0; ///< of the binary part
@@ -299,8 +304,8 @@ private:
 
 } // namespace
 
-GlbTriangles read_glb(std::string const& bytes, std::string const& what) {
-    return GlbReader(bytes, what).read();
+GlbTriangles read_glb(std::string const& bytes, About const& about) {
+    return GlbReader(bytes, about).read();
 }
 
 } // namespace thalweg::io

@@ -48,12 +48,12 @@ constexpr char const* damaged = "it is truncated or damaged: copy it again from 
 class LasFile {
 public:
     explicit LasFile(std::string const& path) : name_(fs::path(path).filename().string()) {
-        refuse_pipe(path, "io.read_las: " + name_);
+        refuse_pipe(path, {"io.read_points", name_});
         std::error_code error;
-        refuse_if<BadInput>(!fs::is_regular_file(path, error), "io.read_las: there is no file {}", path);
+        refuse_if<BadInput>(!fs::is_regular_file(path, error), "io.read_points", "there is no file {}", path);
         size_ = fs::file_size(path, error);
         file_.open(path, std::ios::binary);
-        refuse_if<IoError>(error || !file_, "io.read_las: {} cannot be opened", path);
+        refuse_if<IoError>(error || !file_, "io.read_points", "{} cannot be opened", path);
     }
 
     std::string const& name() const { return name_; }
@@ -69,7 +69,7 @@ public:
     void go_to(std::uint64_t at) { file_.seekg(static_cast<std::streamoff>(at)); }
     void take(char* bytes, std::size_t count) {
         file_.read(bytes, static_cast<std::streamsize>(count));
-        refuse_if<IoError>(!file_, "io.read_las: {} cannot be read to its end", name_);
+        refuse_if<IoError>(!file_, "io.read_points", "{} cannot be read to its end", name_);
     }
 
 private:
@@ -89,9 +89,9 @@ LasAxis las_axis(std::string const& bytes, std::size_t axis, std::string const& 
                        las_number<double>(bytes.data() + 155 + 8 * axis)};
     // Beyond these no coordinate of the Earth is meant, and products with 32 bits would not be finite.
     bool const is_scale = read.scale > 0.0 && read.scale <= 1e9;
-    refuse_if<BadInput>(!is_scale || !(std::fabs(read.offset) <= 1e15),
-                        "io.read_las: the header of {} has a {} scale of {} and an offset of {}: scales lie above 0, "
-                        "and offsets are finite; the file is damaged, write it again",
+    refuse_if<BadInput>(!is_scale || !(std::fabs(read.offset) <= 1e15), "io.read_points",
+                        "the header of {} has a {} scale of {} and an offset of {}: scales lie above 0, and offsets "
+                        "are finite; the file is damaged, write it again",
                         name, "xyz"[axis], read.scale, read.offset);
     return read;
 }
@@ -102,20 +102,20 @@ LasHeader las_fixed_part(std::string const& bytes, LasFile const& file) {
     LasHeader header;
     header.name = name;
     header.minor = static_cast<unsigned char>(bytes[25]);
-    refuse_if<BadInput>(bytes[24] != 1 || header.minor > 4,
-                        "io.read_las: {} is LAS {}.{}, and 1.0 to 1.4 are read; convert it: pdal translate IN.las "
-                        "OUT.las --writers.las.minor_version=4",
+    refuse_if<BadInput>(bytes[24] != 1 || header.minor > 4, "io.read_points",
+                        "{} is LAS {}.{}, and 1.0 to 1.4 are read; convert it: pdal translate IN.las OUT.las "
+                        "--writers.las.minor_version=4",
                         name, static_cast<int>(static_cast<unsigned char>(bytes[24])), header.minor);
     auto const format = static_cast<unsigned char>(bytes[104]);
     header.is_compressed = (format & 0xc0U) != 0; // LASzip sets the upper bits
     header.format = format & 0x3fU;
-    refuse_if<BadInput>(header.format > 10, "io.read_las: the points of {} have format {}, and there are 0 to 10; {}",
-                        name, header.format, damaged);
+    refuse_if<BadInput>(header.format > 10, "io.read_points",
+                        "the points of {} have format {}, and there are 0 to 10; {}", name, header.format, damaged);
     header.length = las_number<std::uint16_t>(bytes.data() + 105);
     std::uint32_t const least = record_bytes[static_cast<std::size_t>(header.format)];
-    refuse_if<BadInput>(header.length < least,
-                        "io.read_las: the points of {} are {} bytes long, and those of format {} have at least {}; {}",
-                        name, header.length, header.format, least, damaged);
+    refuse_if<BadInput>(header.length < least, "io.read_points",
+                        "the points of {} are {} bytes long, and those of format {} have at least {}; {}", name,
+                        header.length, header.format, least, damaged);
     header.points_at = las_number<std::uint32_t>(bytes.data() + 96);
     header.count = las_number<std::uint32_t>(bytes.data() + 107);
     if (header.minor == 4) {
@@ -130,13 +130,13 @@ LasHeader las_fixed_part(std::string const& bytes, LasFile const& file) {
 }
 
 void require_points_inside(LasHeader const& header, std::uint64_t header_size, std::uint64_t size) {
-    refuse_if<BadInput>(header.points_at < header_size || header.points_at > size,
-                        "io.read_las: the points of {} begin at byte {}, and the header ends at {}, the file at {}; {}",
-                        header.name, header.points_at, header_size, size, damaged);
+    refuse_if<BadInput>(header.points_at < header_size || header.points_at > size, "io.read_points",
+                        "the points of {} begin at byte {}, and the header ends at {}, the file at {}; {}", header.name,
+                        header.points_at, header_size, size, damaged);
     std::uint64_t const room = (size - header.points_at) / header.length;
-    refuse_if<BadInput>(!header.is_compressed && header.count > room,
-                        "io.read_las: {} has room for {} points, and its header says {}; {}", header.name, room,
-                        header.count, damaged);
+    refuse_if<BadInput>(!header.is_compressed && header.count > room, "io.read_points",
+                        "{} has room for {} points, and its header says {}; {}", header.name, room, header.count,
+                        damaged);
 }
 
 /// One of a file's records besides its points.
@@ -158,7 +158,7 @@ void keep_crs(LasCrs& crs, VariableRecord const& record, LasFile& file) {
         return;
     }
     constexpr std::uint64_t most_bytes = std::uint64_t{1} << 20U; // WKT of real systems is a hundredth of it
-    refuse_if<BadInput>(record.length > most_bytes, "io.read_las: the CRS of {} is {} bytes long; {}", file.name(),
+    refuse_if<BadInput>(record.length > most_bytes, "io.read_points", "the CRS of {} is {} bytes long; {}", file.name(),
                         record.length, damaged);
     *part = file.bytes(record.at, static_cast<std::size_t>(record.length));
 }
@@ -177,10 +177,9 @@ void read_records(LasCrs& crs, LasFile& file, std::uint64_t at, std::uint64_t en
             record.length =
                 is_long ? las_number<std::uint64_t>(bytes.data() + 20) : las_number<std::uint16_t>(bytes.data() + 20);
         }
-        refuse_if<BadInput>(!has_head || record.length > end - record.at,
-                            "io.read_las: variable-length record {} of {} of {}, at byte {}, reaches beyond byte {}; "
-                            "{}",
-                            i + 1, count, file.name(), at, end, damaged);
+        refuse_if<BadInput>(!has_head || record.length > end - record.at, "io.read_points",
+                            "variable-length record {} of {} of {}, at byte {}, reaches beyond byte {}; {}", i + 1,
+                            count, file.name(), at, end, damaged);
         keep_crs(crs, record, file);
         at = record.at + record.length;
     }
@@ -228,7 +227,8 @@ std::string tiff_of_keys(LasCrs const& crs) {
 }
 
 [[noreturn]] void refuse_crs(LasHeader const& header, char const* what, std::string const& words) {
-    throw BadInput(fmt::format("io.read_las: the CRS of {} ({}) is not understood{}; write it again: pdal translate "
+    throw BadInput("io.read_points",
+                   fmt::format("the CRS of {} ({}) is not understood{}; write it again: pdal translate "
                                "IN.las OUT.las --writers.las.a_srs=EPSG:n",
                                header.name, what, words.empty() ? "" : ": " + words));
 }
@@ -252,7 +252,7 @@ OGRSpatialReference crs_of_keys(LasHeader const& header) {
     if (file != nullptr) {
         VSIFCloseL(file);
     }
-    refuse_if<IoError>(!is_written, "io.read_las: the CRS of {} does not fit into memory", header.name);
+    refuse_if<IoError>(!is_written, "io.read_points", "the CRS of {} does not fit into memory", header.name);
     CPLConfigOptionSetter const with_heights("GTIFF_REPORT_COMPD_CS", "YES", false);
     std::array<char const*, 2> const drivers{"GTiff", nullptr};
     Dataset const data(GDALDataset::Open(memory.path().c_str(), GDAL_OF_RASTER | GDAL_OF_VECTOR, drivers.data()));
@@ -337,25 +337,25 @@ bool is_point_cloud(std::string const& path) {
     return cloud_format(path) != CloudFormat::none;
 }
 
-void refuse_e57(std::string const& path, std::string const& who) {
-    throw BadInput(fmt::format("{}: {} is E57, which is not read; convert it: pdal translate {} {}", who, path,
-                               for_shell(path), for_shell(fs::path(path).replace_extension(".las").string())));
+void refuse_e57(std::string const& path, std::string const& where) {
+    throw BadInput(where, fmt::format("{} is E57, which is not read; convert it: pdal translate {} {}", path,
+                                      for_shell(path), for_shell(fs::path(path).replace_extension(".las").string())));
 }
 
 LasHeader read_las_header(std::string const& path) {
     LasFile file(path);
-    refuse_if<BadInput>(file.size() < least_header,
-                        "io.read_las: {} is {} bytes long, and the header of LAS alone has {}; {}", file.name(),
-                        file.size(), least_header, damaged);
+    refuse_if<BadInput>(file.size() < least_header, "io.read_points",
+                        "{} is {} bytes long, and the header of LAS alone has {}; {}", file.name(), file.size(),
+                        least_header, damaged);
     std::string bytes = file.bytes(0, static_cast<std::size_t>(std::min<std::uint64_t>(file.size(), header_of_1_4)));
-    refuse_if<BadInput>(!bytes.starts_with("LASF"), "io.read_las: {} is not LAS: it does not begin with LASF",
+    refuse_if<BadInput>(!bytes.starts_with("LASF"), "io.read_points", "{} is not LAS: it does not begin with LASF",
                         file.name());
     std::uint64_t const size = las_number<std::uint16_t>(bytes.data() + 94);
     bool const is_1_4 = bytes[24] == 1 && bytes[25] == 4;
     std::size_t const least = is_1_4 ? header_of_1_4 : least_header;
-    refuse_if<BadInput>(size < least || bytes.size() < least,
-                        "io.read_las: the header of {} is {} bytes long, and that of its version has {}; {}",
-                        file.name(), std::min<std::uint64_t>(size, file.size()), least, damaged);
+    refuse_if<BadInput>(size < least || bytes.size() < least, "io.read_points",
+                        "the header of {} is {} bytes long, and that of its version has {}; {}", file.name(),
+                        std::min<std::uint64_t>(size, file.size()), least, damaged);
     LasHeader header = las_fixed_part(bytes, file);
     header.path = path;
     require_points_inside(header, size, file.size());

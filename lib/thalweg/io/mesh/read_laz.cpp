@@ -13,13 +13,13 @@ namespace {
 class CompressedRecords : public LasRecords {
 public:
     explicit CompressedRecords(LasHeader const& header) : header_(header), left_(header.count) {
-        refuse_if<IoError>(laszip_create(&reader_) != 0, "io.read_las: LASzip cannot be used");
+        refuse_if<IoError>(laszip_create(&reader_) != 0, "io.read_points", "LASzip cannot be used");
         laszip_BOOL is_compressed = 0;
         if (laszip_open_reader(reader_, header.path.c_str(), &is_compressed) != 0 ||
             laszip_get_point_pointer(reader_, &point_) != 0) {
             std::string const words = reason();
             laszip_destroy(reader_); // no destructor runs
-            refuse_if<BadInput>(true, "io.read_las: {} cannot be decompressed: {}", header.name, words);
+            refuse_if<BadInput>(true, "io.read_points", "{} cannot be decompressed: {}", header.name, words);
         }
     }
     ~CompressedRecords() override {
@@ -32,9 +32,9 @@ public:
         points.resize(static_cast<std::size_t>(std::min(left_, points_a_time)));
         for (LasPoint& p : points) {
             bool const is_read = laszip_read_point(reader_) == 0;
-            refuse_if<BadInput>(!is_read,
-                                "io.read_las: {} cannot be decompressed after {} of {} points: {}; it is truncated or "
-                                "damaged: copy it again from where it comes",
+            refuse_if<BadInput>(!is_read, "io.read_points",
+                                "{} cannot be decompressed after {} of {} points: {}; it is truncated or damaged: copy "
+                                "it again from where it comes",
                                 header_.name, header_.count - left_, header_.count, is_read ? "" : reason());
             bool const is_old = header_.format < 6;
             p = {point_->X, point_->Y, point_->Z,

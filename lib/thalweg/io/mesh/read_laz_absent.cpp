@@ -13,11 +13,11 @@ namespace thalweg::io {
 
 std::unique_ptr<LasRecords> open_laz(LasHeader const& header) {
     std::string const plain = std::filesystem::path(header.path).replace_extension(".plain.las").string();
-    throw BadInput(fmt::format("io.read_las: {} is compressed (LAZ), and this thalweg was built without LASzip; "
-                               "decompress it: pdal translate {} {}, or laszip -i {} -o {}; or install liblaszip-dev "
-                               "(Debian 13) and build again",
-                               header.name, for_shell(header.path), for_shell(plain), for_shell(header.path),
-                               for_shell(plain)));
+    throw BadInput(
+        "io.read_points",
+        fmt::format("{} is compressed (LAZ), and this thalweg was built without LASzip; decompress it: pdal translate "
+                    "{} {}, or laszip -i {} -o {}; or install liblaszip-dev (Debian 13) and build again",
+                    header.name, for_shell(header.path), for_shell(plain), for_shell(header.path), for_shell(plain)));
 }
 
 } // namespace thalweg::io

@@ -40,7 +40,7 @@ namespace thalweg::io {
 namespace {
 
 [[noreturn]] void refuse_points(std::string const& text) {
-    throw BadInput("io.read_points: " + text);
+    throw BadInput("io.read_points", text);
 }
 
 char lowered(char c) {
@@ -104,10 +104,10 @@ public:
             }
         }
         bool const is_right = names_.size() == 3 || names_.size() == wanted_;
-        refuse_if<BadParameter>(!is_right || std::ranges::any_of(names_, &std::string::empty),
-                                "io.read_points: '{}' does not name the columns of x, y and z: give three names or "
-                                "numbers, such as 3,2,4, or pnezd",
-                                columns);
+        refuse_if<BadParameter>(
+            !is_right || std::ranges::any_of(names_, &std::string::empty), "io.read_points",
+            "'{}' does not name the columns of x, y and z: give three names or numbers, such as 3,2,4, or pnezd",
+            columns);
     }
 
     /// Reads the first line.
@@ -393,9 +393,8 @@ std::vector<Vec3> without_nodata(std::vector<Vec3> points, ReadPointsParams cons
         std::erase_if(points, [&](Vec3 const& p) { return stands_for(p.z, *params.nodata); });
     }
     left_out = static_cast<std::int64_t>(all - points.size());
-    refuse_if<BadInput>(all > 0 && points.empty(),
-                        "io.read_points: all points of {} have the height {:.9g} of --nodata", name,
-                        params.nodata.value_or(0.0));
+    refuse_if<BadInput>(all > 0 && points.empty(), "io.read_points",
+                        "all points of {} have the height {:.9g} of --nodata", name, params.nodata.value_or(0.0));
     return points;
 }
 
@@ -424,11 +423,11 @@ void reproject_points(FeaturePoints& read, OGRSpatialReference const& own, std::
 
 FeaturePoints read_layer(ReadPointsParams const& params, std::string const& name, Run const& run) {
     Driver const driver;
-    Dataset const data = open_file(params.path, GDAL_OF_VECTOR, "io.read_points: " + params.path.path);
+    Dataset const data = open_file(params.path, GDAL_OF_VECTOR, {"io.read_points", params.path.path});
     OGRLayer& layer = choose_layer(*data, params.layer, name);
     FeaturePoints read;
     read.points = without_nodata(take(layer, params, name, run), params, name, read.left_out);
-    driver.check("io.read_points: " + params.path.path);
+    driver.check("io.read_points", params.path.path);
     if (read.points.empty()) {
         return read;
     }
@@ -583,15 +582,15 @@ void settle_duplicates(FeaturePoints& read, DuplicatePoints duplicates, std::str
 /// Refuses options that do not apply to the file.
 void refuse_unfit(ReadPointsParams const& params, bool is_cloud, std::string const& name) {
     refuse_if<BadParameter>(!params.columns.value_or("").empty() && !is_text_of_points(params.path.path),
-                            "io.read_points: {} is not text of points (.csv, .txt, .xyz): it has no columns to name",
+                            "io.read_points", "{} is not text of points (.csv, .txt, .xyz): it has no columns to name",
                             name);
-    refuse_if<BadParameter>(is_cloud && !params.height_column.value_or("").empty(),
-                            "io.read_points: {} is a point cloud: it has no column '{}' of heights", name,
+    refuse_if<BadParameter>(is_cloud && !params.height_column.value_or("").empty(), "io.read_points",
+                            "{} is a point cloud: it has no column '{}' of heights", name,
                             params.height_column.value_or(""));
-    refuse_if<BadParameter>(!is_cloud && !params.classes.value_or("").empty(),
-                            "io.read_points: {} is not a point cloud (LAS, LAZ): it has no classes", name);
-    refuse_if<BadParameter>(!is_cloud && params.thin_m,
-                            "io.read_points: {} is not a point cloud (LAS, LAZ): other points are not thinned", name);
+    refuse_if<BadParameter>(!is_cloud && !params.classes.value_or("").empty(), "io.read_points",
+                            "{} is not a point cloud (LAS, LAZ): it has no classes", name);
+    refuse_if<BadParameter>(!is_cloud && params.thin_m, "io.read_points",
+                            "{} is not a point cloud (LAS, LAZ): other points are not thinned", name);
 }
 
 } // namespace

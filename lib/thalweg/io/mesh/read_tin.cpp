@@ -138,7 +138,7 @@ public:
         }
     }
     [[noreturn]] void refuse(std::string const& what) const {
-        throw BadInput(fmt::format("io.read_tin: {}, line {}: {}", path_, number_, what));
+        throw BadInput("io.read_tin", fmt::format("{}, line {}: {}", path_, number_, what));
     }
 
 private:
@@ -430,8 +430,9 @@ void turn_upright(TinFile& file, ObjAxes const& axes, std::string const& path) {
     if (!axes.says_y_up) {
         refuse_if<BadInput>(!axes.says_z_up && facing_of(file.tin, false).is_folded() &&
                                 !facing_of(file.tin, true).is_folded(),
-                            "io.read_tin: {} is folded in plan, with its heights on the y axis: export it with Z up "
-                            "(Blender: Forward Axis Y, Up Axis Z), or begin it with the line \"# Y up\"",
+                            "io.read_tin",
+                            "{} is folded in plan, with its heights on the y axis: export it with Z up (Blender: "
+                            "Forward Axis Y, Up Axis Z), or begin it with the line \"# Y up\"",
                             path);
         return;
     }
@@ -513,7 +514,7 @@ void weld(TinFile& file, std::string const& path) {
     }
     std::size_t const collapsed =
         std::erase_if(file.tin.triangles, [](auto const& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
-    refuse_if<BadInput>(file.tin.triangles.empty(), "io.read_tin: {} has no triangles", path);
+    refuse_if<BadInput>(file.tin.triangles.empty(), "io.read_tin", "{} has no triangles", path);
     file.findings.push_back(
         {.kind = "welded",
          .amount = static_cast<double>(before - vertices.size()),
@@ -526,8 +527,8 @@ void weld(TinFile& file, std::string const& path) {
 /// A GLB, whose axes the format sets.
 TinFile read_glb_file(std::string const& bytes, std::string const& path) {
     Driver const driver;
-    GlbTriangles read = read_glb(bytes, "io.read_tin: " + path);
-    refuse_if<BadInput>(read.tin.triangles.empty(), "io.read_tin: {} has no triangles", path);
+    GlbTriangles read = read_glb(bytes, {"io.read_tin", path});
+    refuse_if<BadInput>(read.tin.triangles.empty(), "io.read_tin", "{} has no triangles", path);
     TinFile file;
     file.tin = std::move(read.tin);
     file.crs = std::move(read.crs);
@@ -547,7 +548,7 @@ bool holds_tin(std::string const& path) {
 }
 
 TinFile read_tin(std::string const& path, Run const& run) {
-    refuse_if<BadInput>(!holds_tin(path), "io.read_tin: {} is not a mesh in 2DM, OBJ, OFF or GLB", path);
+    refuse_if<BadInput>(!holds_tin(path), "io.read_tin", "{} is not a mesh in 2DM, OBJ, OFF or GLB", path);
     std::string const text = read_text(path, most_bytes);
     if (ends_in(path, ".glb")) {
         return read_glb_file(text, path);
@@ -565,14 +566,14 @@ TinFile read_tin(std::string const& path, Run const& run) {
     }
     for (std::size_t i = 0; i < faces.size(); ++i) {
         if (std::ranges::any_of(faces[i], [&](std::uint64_t v) { return v >= file.tin.vertices.size(); })) {
-            throw BadInput(fmt::format("io.read_tin: {}: face {} names a vertex that is not there", path, i + 1));
+            throw BadInput("io.read_tin", fmt::format("{}: face {} names a vertex that is not there", path, i + 1));
         }
         std::vector<std::uint32_t> corners = corners_of(faces[i]);
-        refuse_if<BadInput>(corners.size() < 3, "io.read_tin: {}: face {} has fewer than three corners", path, i + 1);
+        refuse_if<BadInput>(corners.size() < 3, "io.read_tin", "{}: face {} has fewer than three corners", path, i + 1);
         file.split += corners.size() > 3 ? 1 : 0;
         FaceCutter(std::move(corners), file.tin.vertices).cut(file.tin.triangles);
     }
-    refuse_if<BadInput>(file.tin.triangles.empty(), "io.read_tin: {} has no triangles", path);
+    refuse_if<BadInput>(file.tin.triangles.empty(), "io.read_tin", "{} has no triangles", path);
     if (file.split > 0) {
         file.findings.push_back(
             {.kind = "split_faces",

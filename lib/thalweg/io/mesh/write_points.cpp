@@ -33,8 +33,8 @@ struct ListedPoints {
                 step(static_cast<double>(i) / static_cast<double>(points.size()));
             }
             Vec3 const p = points[i];
-            refuse_if<BadInput>(!is_finite(p), "io.write_points: point {} is not finite: ({}, {}, {})", i + 1, p.x, p.y,
-                                p.z);
+            refuse_if<BadInput>(!is_finite(p), "io.write_points", "point {} is not finite: ({}, {}, {})", i + 1, p.x,
+                                p.y, p.z);
             visit(p.x, p.y, p.z, PointClass::key_point);
         }
     }
@@ -57,8 +57,8 @@ struct Cells {
                     continue;
                 }
                 Vec2 const at = z.grid().centre(cell);
-                refuse_if<BadInput>(!std::isfinite(height), "io.write_points: the height of the cell at ({}, {}) is {}",
-                                    at.x, at.y, height);
+                refuse_if<BadInput>(!std::isfinite(height), "io.write_points",
+                                    "the height of the cell at ({}, {}) is {}", at.x, at.y, height);
                 visit(at.x, at.y, height, class_of(cell));
             }
         }
@@ -81,11 +81,11 @@ std::uint64_t write(Source const& source, std::string const& path, PointFormat f
                     extent.add({x, y, static_cast<double>(z)});
                     ++count;
                 });
-    refuse_if<BadInput>(count == 0, "io.write_points: {}: there is no point to write", path);
+    refuse_if<BadInput>(count == 0, "io.write_points", "{}: there is no point to write", path);
     if (format == PointFormat::las && count > std::numeric_limits<std::uint32_t>::max()) {
-        throw BadInput(fmt::format("io.write_points: {}: LAS 1.2 holds at most {} points, not {}; take every "
-                                   "second, or PLY",
-                                   path, std::numeric_limits<std::uint32_t>::max(), count));
+        throw BadInput("io.write_points",
+                       fmt::format("{}: LAS 1.2 holds at most {} points, not {}; take every second, or PLY", path,
+                                   std::numeric_limits<std::uint32_t>::max(), count));
     }
 
     std::string bytes;
@@ -98,7 +98,7 @@ std::uint64_t write(Source const& source, std::string const& path, PointFormat f
         break;
     case PointFormat::xyz: break;
     }
-    NewFile file(path, "io.write_points: " + path);
+    NewFile file(path, {"io.write_points", path});
     source.each(
         [&](double share) {
             run.at(share, "write");
@@ -151,7 +151,7 @@ std::uint64_t write_points(Skeleton const& skeleton, Mask const& rivers, std::st
                            WritePointsParams const& params, Run const& run) {
     require(params);
     Grid const& grid = skeleton.z.grid();
-    require_same_grid(rivers.grid(), grid, "io.write_points: the rivers and the skeleton", "make both on one grid");
+    require_same_grid(rivers.grid(), grid, "io.write_points", "the rivers and the skeleton", "make both on one grid");
     return write(Cells{skeleton.z, &rivers, grid.crs, params.every}, path, params.format, run);
 }
 

@@ -32,21 +32,22 @@ private:
     std::string bytes_;
 };
 
-void require_whole(Tin const& tin, std::string const& what) {
-    refuse_if<BadInput>(tin.vertices.empty(), "{}: the TIN has no vertices", what);
+void require_whole(Tin const& tin, About const& about) {
+    refuse_if<BadInput>(tin.vertices.empty(), about.where, "{}: the TIN has no vertices", about.name);
     constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
-    refuse_if<BadInput>(tin.vertices.size() > most || tin.triangles.size() > most,
-                        "{}: {} vertices and {} triangles: files number at most {}", what, tin.vertices.size(),
+    refuse_if<BadInput>(tin.vertices.size() > most || tin.triangles.size() > most, about.where,
+                        "{}: {} vertices and {} triangles: files number at most {}", about.name, tin.vertices.size(),
                         tin.triangles.size(), most);
     for (std::size_t i = 0; i < tin.vertices.size(); ++i) {
         Vec3 const& v = tin.vertices[i];
-        refuse_if<BadInput>(!is_finite(v), "{}: vertex {} is not finite: ({}, {}, {})", what, i + 1, v.x, v.y, v.z);
+        refuse_if<BadInput>(!is_finite(v), about.where, "{}: vertex {} is not finite: ({}, {}, {})", about.name, i + 1,
+                            v.x, v.y, v.z);
     }
     for (std::size_t i = 0; i < tin.triangles.size(); ++i) {
         auto const& t = tin.triangles[i];
         if (std::max({t[0], t[1], t[2]}) >= tin.vertices.size()) {
-            throw BadInput(fmt::format("{}: triangle {} has vertex {} of {}", what, i + 1,
-                                       std::max({t[0], t[1], t[2]}) + 1, tin.vertices.size()));
+            throw BadInput(about.where, fmt::format("{}: triangle {} has vertex {} of {}", about.name, i + 1,
+                                                    std::max({t[0], t[1], t[2]}) + 1, tin.vertices.size()));
         }
     }
 }
@@ -222,12 +223,12 @@ TinFormat tin_format(std::string const& name, std::string const& path) {
 
 void write_tin(Tin const& tin, std::string const& crs, std::string const& path, TinFormat format, HeightUnit unit,
                Run const& run) {
-    require_whole(tin, "io.write_tin: " + path);
+    require_whole(tin, {"io.write_tin", path});
     bool const keeps_unit = format == TinFormat::mesh_2dm || format == TinFormat::ply ||
                             format == TinFormat::ply_points || format == TinFormat::obj || format == TinFormat::off;
     if (unit != HeightUnit::metre && !keeps_unit) {
-        throw BadParameter(
-            fmt::format("io.write_tin: {}: this format holds heights in metres, not in {}", path, name_of(unit)));
+        throw BadParameter("io.write_tin",
+                           fmt::format("{}: this format holds heights in metres, not in {}", path, name_of(unit)));
     }
     run.check();
     Bytes out;

@@ -235,14 +235,15 @@ std::vector<Polygon> lakes_of_layers(GDALDataset& data, std::vector<OGRLayer*> c
     return into_metres(std::move(lakes), metres);
 }
 
-std::vector<OGRLayer*> layers_of_areas(GDALDataset& data, std::string const& what) {
+std::vector<OGRLayer*> layers_of_areas(GDALDataset& data, About const& about) {
     std::vector<OGRLayer*> const all = layers_of(data);
     std::vector<OGRLayer*> areas = all;
     std::erase_if(areas, [](OGRLayer* layer) {
         return wkbFlatten(layer->GetGeomType()) != wkbUnknown && !is_area(layer->GetGeomType());
     });
-    refuse_if<BadInput>(areas.size() != 1, "{} has {} layers of polygons ({}): extract the one you mean (ogr2ogr)",
-                        what, areas.size(), listed(layer_names(all)));
+    refuse_if<BadInput>(areas.size() != 1, about.where,
+                        "{} has {} layers of polygons ({}): extract the one you mean (ogr2ogr)", about.name,
+                        areas.size(), listed(layer_names(all)));
     return areas;
 }
 

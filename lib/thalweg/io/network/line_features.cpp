@@ -232,11 +232,12 @@ std::string FileColumn::text(OGRFeature const& feature) const {
     return tag_.empty() ? value : value_of_tag(value, tag_);
 }
 
-void FileColumn::require_numbers(std::string const& what, Notes& notes) const {
+void FileColumn::require_numbers(About const& about, Notes& notes) const {
     if (type_ == OFTString) {
-        notes.add(what, "text_number", 0, 0.0, fmt::format("field {} holds text, which is read as numbers", name_));
+        notes.add(about, "text_number", 0, 0.0, fmt::format("field {} holds text, which is read as numbers", name_));
     } else if (!is_number()) {
-        throw BadInput(fmt::format("{}: field {} does not hold numbers, but {}; name another field", what, name_,
+        throw BadInput(about.where,
+                       fmt::format("{}: field {} does not hold numbers, but {}; name another field", about.name, name_,
                                    OGRFieldDefn::GetFieldTypeName(static_cast<OGRFieldType>(type_))));
     }
 }

@@ -188,9 +188,9 @@ private:
                 }
             }
         }
-        refuse_if<BadInput>(downstream_first_.size() < plan_.arc_count(),
-                            "io.write_network: rivers run in a circle through a divergence; run thalweg check on the "
-                            "file; its --fix writes a mended copy");
+        refuse_if<BadInput>(downstream_first_.size() < plan_.arc_count(), "io.write_network",
+                            "rivers run in a circle through a divergence; run thalweg check on the file; its --fix "
+                            "writes a mended copy");
     }
 
     /// Strahler's rule without minor branches, and the order of the water that enters these.
@@ -549,7 +549,8 @@ Table arcs_table(NetworkTables const& tables, SchemaTable const& schema, bool sh
 }
 
 /// Throws BadInput when the tables are not those of the network: else another arc's numbers would be written.
-void require_whole(NetworkTables const& tables, std::string const& what) {
+void require_whole(NetworkTables const& tables, About const& about) {
+    std::string const beginning = about.beginning();
     StreamNetwork const& plan = tables.network.planform;
     auto const& node_z = tables.network.node_z;
     auto const& arc_z = tables.network.arc_z;
@@ -557,7 +558,7 @@ void require_whole(NetworkTables const& tables, std::string const& what) {
     std::size_t const arcs = plan.arc_count();
     std::size_t const nodes = plan.node_count();
     auto const each = [](std::size_t count, auto const&... values) { return ((values.size() == count) && ...); };
-    refuse_if<BadInput>(arcs == 0, "{}: the network has no arcs", what);
+    refuse_if<BadInput>(arcs == 0, about.where, "{}the network has no arcs", beginning);
     refuse_if<BadInput>(
         !each(arcs, arc_z, orders.strahler, orders.shreve, orders.hack, orders.topological, orders.arc_basin,
               tables.us_area_m2, tables.ds_area_m2) ||
@@ -565,8 +566,9 @@ void require_whole(NetworkTables const& tables, std::string const& what) {
                   tables.node_area_m2) ||
             (tables.braided != nullptr && tables.braided->size() != arcs) ||
             (tables.user != nullptr && tables.user->record.size() != arcs),
-        "{}: heights, orders, areas, braids and records do not have one value for each of {} arcs and {} nodes", what,
-        arcs, nodes);
+        about.where,
+        "{}heights, orders, areas, braids and records do not have one value for each of {} arcs and {} nodes",
+        beginning, arcs, nodes);
     for (ArcId a = 0; a < arcs; ++a) {
         auto const& line = plan.arc(a).line;
         NodeId const from = plan.from(a);
@@ -574,20 +576,22 @@ void require_whole(NetworkTables const& tables, std::string const& what) {
         bool const meets = line.size() >= 2 && arc_z[a].size() == line.size() && line.front() == plan.node(from).at &&
                            line.back() == plan.node(to).at && arc_z[a].front() == node_z[from] &&
                            arc_z[a].back() == node_z[to];
-        refuse_if<BadInput>(!meets, "{}: arc {} does not begin at node {} and end at node {}", what, a + 1, from + 1,
-                            to + 1);
+        refuse_if<BadInput>(!meets, about.where, "{}arc {} does not begin at node {} and end at node {}", beginning,
+                            a + 1, from + 1, to + 1);
     }
     for (NodeId n = 0; n < nodes; ++n) {
-        refuse_if<BadInput>(plan.basin(n) == 0, "{}: node {} at ({}, {}) reaches no outlet", what, n + 1,
-                            plan.node(n).at.x, plan.node(n).at.y);
+        refuse_if<BadInput>(plan.basin(n) == 0, about.where, "{}node {} at ({}, {}) reaches no outlet", beginning,
+                            n + 1, plan.node(n).at.x, plan.node(n).at.y);
     }
 }
 
-Table ridges_table(RidgeLines const& ridges, HeightUnit unit, std::string const& what) {
+Table ridges_table(RidgeLines const& ridges, HeightUnit unit, About const& about) {
+    std::string const beginning = about.beginning();
     for (std::size_t i = 0; i < ridges.lines.size(); ++i) {
         RidgeLine const& ridge = ridges.lines[i];
-        refuse_if<BadInput>(ridge.line.size() < 2, "{}: ridge {} between streams {} and {} has fewer than two vertices",
-                            what, i + 1, ridge.left, ridge.right);
+        refuse_if<BadInput>(ridge.line.size() < 2, about.where,
+                            "{}ridge {} between streams {} and {} has fewer than two vertices", beginning, i + 1,
+                            ridge.left, ridge.right);
     }
     auto const ridge = [&ridges](std::size_t row) -> RidgeLine const& { return ridges.lines[row]; };
     auto const line = [ridge, unit_m = metres_in(unit)](std::size_t row) {
@@ -695,17 +699,17 @@ void add_user_columns(Table& table, AttributeTable const& attributes,
 
 // Arcs in any schema.
 
-std::vector<Table> network_layers(NetworkTables const& tables, Schema schema, bool short_names,
-                                  std::string const& what) {
-    require_whole(tables, what);
+std::vector<Table> network_layers(NetworkTables const& tables, Schema schema, bool short_names, About const& about) {
+    require_whole(tables, about);
+    std::string const beginning = about.beginning();
     StreamNetwork const& plan = tables.network.planform;
     SchemaTable const& words = table_of(schema);
     auto const most = static_cast<std::size_t>(words.most_upstream);
     for (NodeId n = 0; n < plan.node_count(); ++n) {
-        refuse_if<BadInput>(most > 0 && plan.out(n) != no_arc && plan.in(n).size() > most,
-                            "{}: {} rivers meet at ({}, {}), but {} names no more than {} upstream of one: split "
+        refuse_if<BadInput>(most > 0 && plan.out(n) != no_arc && plan.in(n).size() > most, about.where,
+                            "{}{} rivers meet at ({}, {}), but {} names no more than {} upstream of one: split "
                             "confluences (--max-upstream {})",
-                            what, plan.in(n).size(), plan.node(n).at.x, plan.node(n).at.y, words.name, most, most);
+                            beginning, plan.in(n).size(), plan.node(n).at.x, plan.node(n).at.y, words.name, most, most);
     }
     std::vector<Table> layers{arcs_table(tables, words, short_names)};
     if (schema == Schema::native) {
@@ -749,10 +753,10 @@ Table nodes_table(NetworkTables const& tables) {
     return table;
 }
 
-std::vector<Table> geopackage_tables(NetworkTables const& tables, std::string const& what) {
-    std::vector<Table> layers = network_layers(tables, Schema::native, false, what);
+std::vector<Table> geopackage_tables(NetworkTables const& tables, About const& about) {
+    std::vector<Table> layers = network_layers(tables, Schema::native, false, about);
     if (tables.ridges != nullptr && !tables.ridges->lines.empty()) {
-        layers.push_back(ridges_table(*tables.ridges, tables.unit, what));
+        layers.push_back(ridges_table(*tables.ridges, tables.unit, about));
     }
     if (tables.secondary != nullptr && !tables.secondary->empty()) {
         layers.push_back(secondary_table(*tables.secondary, tables.user));

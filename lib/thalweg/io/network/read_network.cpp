@@ -53,7 +53,7 @@ std::uint64_t bits(double v) {
 
 /// Makes an outlet of each arc whose ds_arc the file does not hold: an extract ends there. Its basins do not count
 /// then.
-void drop_links_out(NetworkFile& file, std::string const& what, Notes& notes) {
+void drop_links_out(NetworkFile& file, About const& about, Notes& notes) {
     auto const ids = by_id(file);
     for (FileArc& arc : file.arcs) {
         if (arc.ds_arc == 0 || find(file, ids, arc.ds_arc) != nullptr) {
@@ -61,7 +61,7 @@ void drop_links_out(NetworkFile& file, std::string const& what, Notes& notes) {
         }
         std::int64_t const below = arc.ds_arc < 0 ? -arc.ds_arc : arc.ds_arc - file.id_shift;
         std::int64_t const id = arc.id - file.id_shift;
-        notes.add(what, "cut_below", id, static_cast<double>(below),
+        notes.add(about, "cut_below", id, static_cast<double>(below),
                   fmt::format("arc {} flows into {}, which is not in the file: treated as an outlet", id, below));
         file.says.basin = false; // those of outlets beyond
         arc.ds_arc = 0;
@@ -69,7 +69,7 @@ void drop_links_out(NetworkFile& file, std::string const& what, Notes& notes) {
 }
 
 /// Reverses all lines when more linked arcs are drawn up than down; with as many of both, when drawn_upstream.
-void turn_downstream(NetworkFile& file, bool drawn_upstream, std::string const& what, Notes& notes) {
+void turn_downstream(NetworkFile& file, bool drawn_upstream, About const& about, Notes& notes) {
     auto const ids = by_id(file);
     std::size_t down = 0;
     std::size_t up = 0;
@@ -88,7 +88,7 @@ void turn_downstream(NetworkFile& file, bool drawn_upstream, std::string const& 
         }
     }
     if (upstream != drawn_upstream) {
-        notes.add(what, "turned", 0, static_cast<double>(file.arcs.size()),
+        notes.add(about, "turned", 0, static_cast<double>(file.arcs.size()),
                   fmt::format("most lines are drawn {}, against this schema: all {} were {}",
                               upstream ? "upstream" : "downstream", file.arcs.size(),
                               upstream ? "reversed" : "left as they are drawn"));
@@ -154,7 +154,7 @@ void link_by_nodes(NetworkFile& file) {
 
 // Leaves out arcs whose vertices all lie at one place: arcs that flow into one flow into what is downstream of it.
 // Their Strahler numbers are then those of two streams after another, not of all that meet.
-void bridge_points(NetworkFile& file, std::string const& what, Notes& notes) {
+void bridge_points(NetworkFile& file, About const& about, Notes& notes) {
     std::map<std::int64_t, std::int64_t> below; // of an arc without length the arc downstream
     for (FileArc const& arc : file.arcs) {
         bool const is_point = !arc.line.empty() && std::ranges::all_of(arc.line, [&](Vec3 const& p) {
@@ -181,7 +181,7 @@ void bridge_points(NetworkFile& file, std::string const& what, Notes& notes) {
     for (auto const& [bridged, down] : below) {
         std::int64_t const id = bridged - file.id_shift;
         std::int64_t const next = next_of(down) == 0 ? 0 : next_of(down) - file.id_shift;
-        notes.add(what, "bridged", id, static_cast<double>(next),
+        notes.add(about, "bridged", id, static_cast<double>(next),
                   fmt::format("arc {} has no length: what flows into it {}", id,
                               next_of(down) == 0 ? "ends there" : fmt::format("flows into arc {}", next)));
     }
@@ -207,8 +207,8 @@ Wish wish_of(ReadNetworkParams const& params) {
     }
     for (auto const& [quantity, field] : params.fields) {
         auto const known = quantity_of(quantity);
-        refuse_if<BadInput>(!known && quantity != "node_id",
-                            "io.read_network: '{}' is not a quantity of the network schema.{} ({})", quantity,
+        refuse_if<BadInput>(!known && quantity != "node_id", "io.read_network",
+                            "'{}' is not a quantity of the network schema.{} ({})", quantity,
                             did_you_mean(quantity, names), listed(names));
         (known ? wish.columns[*known] : wish.node_id) = field;
     }
@@ -230,7 +230,7 @@ void convert_heights(NetworkFile& file, Layer const& arcs, Wish const& wish, Not
         node.columns.z_m *= unit;
     }
     if (unit != 1.0 && !wish.whole) {
-        notes.add(arcs.what, "heights_converted", 0, unit,
+        notes.add(arcs.about, "heights_converted", 0, unit,
                   fmt::format("its heights, in {}, were converted into metres", words_for_unit(unit)));
     }
 }
@@ -243,13 +243,13 @@ void reproject_to_metres(NetworkFile& file, Layer const& arcs, std::optional<Lay
         OGRSpatialReference const other = crs_of_layer(nodes->layer->GetSpatialRef(), wish.source_crs);
         refuse_if<BadInput>(!has_none && other.IsEmpty() == 0 && own.IsSame(&other) == FALSE &&
                                 name_of(own) != name_of(other),
-                            "{} is in {} and layer {} in {}: reproject both to one CRS", arcs.what, own.GetName(),
-                            nodes->layer->GetName(), other.GetName());
+                            arcs.about.where, "{} is in {} and layer {} in {}: reproject both to one CRS",
+                            arcs.about.name, own.GetName(), nodes->layer->GetName(), other.GetName());
     }
     bool const native = file.schema == "native";
     if (has_none) {
         if (!native) {
-            notes.add(arcs.what, "no_crs", 0, 0.0, "no CRS: its coordinates are treated as metres");
+            notes.add(arcs.about, "no_crs", 0, 0.0, "no CRS: its coordinates are treated as metres");
         }
         return;
     }
@@ -265,12 +265,12 @@ void reproject_to_metres(NetworkFile& file, Layer const& arcs, std::optional<Lay
         file.crs = name_of(own);
         return;
     }
-    std::string const name = arcs.what.substr(arcs.what.find(": ") + 2); // without the function
+    std::string const& name = arcs.about.name;
     // A network in the native schema has the CRS that its maker chose.
     IntoMetres const metres(own, wish.crs, places.box(), name, native ? OwnMetres::kept : OwnMetres::judged);
     file.crs = metres.crs();
     if (auto const doubt = degrees_as_metres(own, places.box(), name); doubt && !wish.whole) {
-        notes.add(arcs.what, *doubt);
+        notes.add(arcs.about, *doubt);
     }
     if (!metres.moves()) {
         return;
@@ -293,7 +293,7 @@ void reproject_to_metres(NetworkFile& file, Layer const& arcs, std::optional<Lay
         move({&node.at, 1});
         node.columns.dist_out_m = nan;
     }
-    notes.add(arcs.what, "reprojected", 0, 0.0,
+    notes.add(arcs.about, "reprojected", 0, 0.0,
               fmt::format("its coordinates were reprojected from {} to {}", own.GetName(), in_message(file.crs)));
 }
 
@@ -313,29 +313,30 @@ NetworkFile read(std::string const& path, Wish const& wish, Run const& run) {
     read_arcs(file, arcs, schema, wish, driver, notes, run);
     OGRLayer* const sources = schema == Schema::native ? source.dataset->GetLayerByName("sources") : nullptr;
     if (sources != nullptr) {
-        read_sources(file, {sources, source.what + ", layer sources"}, driver, run);
+        read_sources(file, {sources, {source.about.where, source.about.name + ", layer sources"}}, driver, run);
     }
     if (nodes) {
         read_nodes(file, *nodes, wish.node_id, driver, notes, run);
     } else if (schema == Schema::native) {
-        notes.add(source.what, "missing_nodes", 0, 0.0, "has no layer nodes");
+        notes.add(source.about, "missing_nodes", 0, 0.0, "has no layer nodes");
     }
     convert_heights(file, arcs, wish, notes);
     reproject_to_metres(file, arcs, nodes, wish, notes, run);
     if (!arcs.read_from.empty() && wish.arcs_layer.empty() && !wish.whole) {
-        for (Finding const& others : layers_not_read(*source.dataset, arcs.read_from, file.crs, wish.source_crs,
-                                                     std::filesystem::path(place.arcs).filename().string())) {
-            notes.add(arcs.what, others);
+        for (Finding const& others :
+             layers_not_read(*source.dataset, arcs.read_from, file.crs, wish.source_crs,
+                             {source.about.where, std::filesystem::path(place.arcs).filename().string()})) {
+            notes.add(arcs.about, others);
         }
     }
     if (schema != Schema::native) {
         if (file.says.downstream) {
-            drop_links_out(file, arcs.what, notes);
+            drop_links_out(file, arcs.about, notes);
             if (wish.bridge && !file.says.ends) {
-                bridge_points(file, arcs.what, notes);
+                bridge_points(file, arcs.about, notes);
             }
         }
-        turn_downstream(file, table_of(schema.value_or(Schema::native)).drawn_upstream, arcs.what, notes);
+        turn_downstream(file, table_of(schema.value_or(Schema::native)).drawn_upstream, arcs.about, notes);
     }
     if (!file.says.ends) {
         name_ends(file);

@@ -26,21 +26,21 @@ using NodeColumns = NetworkFile::NodeColumns;
 struct FeatureNumbers {
     OGRFeature const& feature;
     std::int64_t number; // in the order of the layer, from 1
-    std::string const& what;
+    About const& about;
     Notes& notes;
 
     // of: the id of the arc or node in the file.
     std::int64_t whole(FileColumn const& column, std::int64_t of, bool may_be_null) const {
         if (column.is_null(feature)) {
             if (column.is_there() && !may_be_null) {
-                notes.add(what, "null_number", of, 0.0, fmt::format("feature {} has no {}", number, column.name()));
+                notes.add(about, "null_number", of, 0.0, fmt::format("feature {} has no {}", number, column.name()));
             }
             return 0;
         }
         auto const value = column.whole(feature);
         if (!value) {
             notes.add(
-                what, "not_a_number", of, 0.0,
+                about, "not_a_number", of, 0.0,
                 fmt::format("feature {} has {} {}, not a whole number", number, column.name(), column.text(feature)));
         }
         return value.value_or(0);
@@ -93,7 +93,7 @@ public:
         file.attributes = attributes_.take();
         if (!whole_) {
             for (Finding const& finding : attributes_.findings()) {
-                notes_.add(arcs_.what, finding);
+                notes_.add(arcs_.about, finding);
             }
         }
         note_shapes(file);
@@ -116,13 +116,13 @@ private:
         for (auto const& [quantity, name] : mapped) {
             FileColumn column(*arcs_.layer, {name});
             auto const names = field_names(*arcs_.layer);
-            refuse_if<BadInput>(!column.is_there(), "{}: no field {}.{} (there are {})", arcs_.what, name,
-                                did_you_mean(name, names), listed(names));
+            refuse_if<BadInput>(!column.is_there(), arcs_.about.where, "{}: no field {}.{} (there are {})",
+                                arcs_.about.name, name, did_you_mean(name, names), listed(names));
             columns_[quantity] = {std::move(column), field_of(table_, quantity)};
         }
         for (Told const& told : columns_.entries) {
             if (&told != &columns_[Q::type] && told.column.is_there()) {
-                told.column.require_numbers(arcs_.what, notes_);
+                told.column.require_numbers(arcs_.about, notes_);
             }
         }
     }
@@ -135,10 +135,11 @@ private:
                 missing.emplace_back(field == nullptr ? name_of(q) : field->name);
             }
         }
-        refuse_if<BadInput>(!has(Q::arc_id), "{}: no field {} (there are {}); name the field that holds arc_id",
-                            arcs_.what, listed(missing), listed(field_names(*arcs_.layer)));
+        refuse_if<BadInput>(!has(Q::arc_id), arcs_.about.where,
+                            "{}: no field {} (there are {}); name the field that holds arc_id", arcs_.about.name,
+                            listed(missing), listed(field_names(*arcs_.layer)));
         if (!missing.empty()) {
-            notes_.add(arcs_.what, "missing_field", 0, static_cast<double>(missing.size()),
+            notes_.add(arcs_.about, "missing_field", 0, static_cast<double>(missing.size()),
                        fmt::format("no field {}", listed(missing)));
         }
     }
@@ -189,7 +190,7 @@ private:
 
     FileArc numbers_of(OGRFeature const& feature) {
         flow_.read(feature, number_);
-        FeatureNumbers const numbers{feature, number_, arcs_.what, notes_};
+        FeatureNumbers const numbers{feature, number_, arcs_.about, notes_};
         bool const native = schema_ == Schema::native;
         std::int64_t const id = by_feature_ ? number_ : numbers.whole(column(Q::arc_id), 0, false);
         auto const number = [&](Quantity q) { return numbers.whole(column(q), id, false); };
@@ -268,7 +269,7 @@ private:
         for (FileArc& arc : file.arcs) {
             arc.ds_arc = downs.contains(arc.id) ? downs.at(arc.id) : 0;
         }
-        notes_.add(arcs_.what, "by_feature", 0, static_cast<double>(file.arcs.size()),
+        notes_.add(arcs_.about, "by_feature", 0, static_cast<double>(file.arcs.size()),
                    fmt::format("its fields match no schema: lines are numbered by their features and joined by {}",
                                file.says.downstream ? "their links" : "their ends"));
     }
@@ -279,13 +280,13 @@ private:
         auto const& first = drawn.parts.front();
         bool const joined = drawn.parts.size() == 1;
         if (drawn.drawn_parts > 1 && !(joined && table_.segment_parts)) {
-            notes_.add(arcs_.what, "multi_part", id, drawn.drawn_parts,
+            notes_.add(arcs_.about, "multi_part", id, drawn.drawn_parts,
                        fmt::format("feature {} has {} parts{}", number_, drawn.drawn_parts,
                                    joined ? ", which join end to end: read as one line"
                                           : ": an arc is one line; each was read as an arc of the same id"));
         }
         if (shape != nullptr && shape->hasCurveGeometry(TRUE) != 0) {
-            notes_.add(arcs_.what, "curve", id, static_cast<double>(first.size()),
+            notes_.add(arcs_.about, "curve", id, static_cast<double>(first.size()),
                        fmt::format("feature {} is a curve: read as a line of {} vertices", number_, first.size()));
         }
         measured_ += shape != nullptr && shape->IsMeasured() != 0 ? 1 : 0;
@@ -298,10 +299,10 @@ private:
 
     void note_shapes(NetworkFile& file) {
         auto const note = [&](FindingKind kind, std::int64_t amount, std::string text) {
-            notes_.add(arcs_.what, kind, 0, static_cast<double>(amount), std::move(text));
+            notes_.add(arcs_.about, kind, 0, static_cast<double>(amount), std::move(text));
         };
         for (Finding const& other : others_.findings()) { // whose places are in coordinates of the file
-            notes_.add(arcs_.what, other.kind, 0, other.amount, other.text);
+            notes_.add(arcs_.about, other.kind, 0, other.amount, other.text);
         }
         if (measured_ > 0) {
             note("measures", measured_, fmt::format("{} lines have measures (M), which were left out", measured_));
@@ -353,8 +354,8 @@ private:
 
 } // namespace
 
-void Notes::add(std::string const& source, Finding finding) {
-    refuse_if<BadInput>(strict_, "{}: {}", source, finding.text);
+void Notes::add(About const& about, Finding finding) {
+    refuse_if<BadInput>(strict_, about.where, "{}: {}", about.name, finding.text);
     if (++count_[finding.kind] <= kept_of_a_kind) {
         findings_.push_back(std::move(finding));
     }
@@ -393,9 +394,9 @@ void read_sources(NetworkFile& file, Layer const& sources, Driver const& driver,
 void read_nodes(NetworkFile& file, Layer const& nodes, std::string const& node_id, Driver const& driver, Notes& notes,
                 Run const& run) {
     FileColumn const id(*nodes.layer, {node_id});
-    refuse_if<BadInput>(!id.is_there(), "{}: no field {} (there are {})", nodes.what, node_id,
+    refuse_if<BadInput>(!id.is_there(), nodes.about.where, "{}: no field {} (there are {})", nodes.about.name, node_id,
                         listed(field_names(*nodes.layer)));
-    id.require_numbers(nodes.what, notes);
+    id.require_numbers(nodes.about, notes);
     FileColumn const kind(*nodes.layer, {"kind"});
     std::vector<std::pair<FileColumn, double NodeColumns::*>> columns;
     for (auto const& [name, member] : node_columns) {
@@ -406,14 +407,14 @@ void read_nodes(NetworkFile& file, Layer const& nodes, std::string const& node_i
         ++number;
         auto const* const shape = feature.GetGeometryRef();
         refuse_if<BadInput>(shape == nullptr || wkbFlatten(shape->getGeometryType()) != wkbPoint || shape->IsEmpty(),
-                            "{}: feature {} is not a point", nodes.what, number);
+                            nodes.about.where, "{}: feature {} is not a point", nodes.about.name, number);
         OGRPoint const& p = *shape->toPoint();
         bool const is_flat = p.Is3D() == FALSE;
         if (is_flat && file.says.heights) {
-            notes.add(nodes.what, "no_heights", 0, 1.0, fmt::format("feature {} has no heights (Z)", number));
+            notes.add(nodes.about, "no_heights", 0, 1.0, fmt::format("feature {} has no heights (Z)", number));
         }
         NetworkFile::FileNode& node = file.nodes.emplace_back();
-        node.id = FeatureNumbers{feature, number, nodes.what, notes}.whole(id, 0, false);
+        node.id = FeatureNumbers{feature, number, nodes.about, notes}.whole(id, 0, false);
         node.at = {p.getX(), p.getY(), is_flat ? nan : p.getZ()};
         node.columns.kind = kind.text(feature);
         for (auto const& [column, member] : columns) {

@@ -51,7 +51,7 @@ std::vector<std::string> networks_in(fs::path const& folder, bool shapefiles_alo
             packages.push_back(entry.path().string());
         }
     }
-    refuse_if<IoError>(static_cast<bool>(error), "io.read_network: {}: {}", folder.string(), error.message());
+    refuse_if<IoError>(static_cast<bool>(error), "io.read_network", "{}: {}", folder.string(), error.message());
     bool const is_terrain = fs::exists(folder / "recipe.toml"); // whose only package would hold contours
     return arcs.empty() && !is_terrain && !shapefiles_alone ? packages : arcs;
 }
@@ -80,17 +80,17 @@ NetworkPlace pair_of(fs::path const& path, bool whole) {
     if (ends_as(path, "nodes")) {
         return {sibling("nodes", "arcs"), path.string()};
     }
-    refuse_if<BadInput>(whole, "io.read_network: {} is neither NAME_arcs.shp nor NAME_nodes.shp", path.string());
+    refuse_if<BadInput>(whole, "io.read_network", "{} is neither NAME_arcs.shp nor NAME_nodes.shp", path.string());
     return {path.string(), ""};
 }
 
 Layer layer_of(NetworkSource const& source, OGRLayer& layer, std::string const& name) {
-    return {&layer, fmt::format("{}, layer {}", source.what, name)};
+    return {&layer, {source.about.where, fmt::format("{}, layer {}", source.about.name, name)}};
 }
 
 [[noreturn]] void refuse_layer(NetworkSource const& source, std::string const& wanted) {
-    throw BadInput(fmt::format("{} has no layer {} (there are {})", source.what, wanted,
-                               listed(layer_names(layers_of(*source.dataset)))));
+    throw BadInput(source.about.where, fmt::format("{} has no layer {} (there are {})", source.about.name, wanted,
+                                                   listed(layer_names(layers_of(*source.dataset)))));
 }
 
 // "native: arc_id, ...; taudem: ...", for a message: what recognised() looks for.
@@ -108,7 +108,7 @@ std::string what_tells() {
 
 /// Several layers as one, which lives as long as the layer is used.
 Layer layer_of(NetworkSource const& source, std::vector<OGRLayer*> layers) {
-    ChosenLayer chosen = as_one(layers, source.what);
+    ChosenLayer chosen = as_one(layers, source.about);
     Layer layer = layer_of(source, *chosen.layer, chosen.name);
     layer.holds = std::shared_ptr<GDALDataset>(std::move(chosen.holds));
     layer.read_from = std::move(layers);
@@ -124,9 +124,9 @@ RiverSource find_rivers(std::string const& path) {
         source.path.pop_back();
     }
     bool const is_file = !names_database(path) && !path.starts_with("/vsi");
-    refuse_if<BadInput>(is_file && !fs::exists(path, ignored), "io.find_rivers: {} does not exist", path);
+    refuse_if<BadInput>(is_file && !fs::exists(path, ignored), "io.find_rivers", "{} does not exist", path);
     refuse_if<BadInput>(is_file && fs::is_regular_file(path, ignored) && fs::file_size(path, ignored) == 0,
-                        "io.find_rivers: {} is empty", path);
+                        "io.find_rivers", "{} is empty", path);
     bool is_plain_folder = false;
     if (is_file && fs::is_directory(path, ignored)) {
         std::vector<std::string> const networks = networks_in(source.path, false);
@@ -137,13 +137,14 @@ RiverSource find_rivers(std::string const& path) {
     Dataset const data = open_unchanged(source.path, GDAL_OF_VECTOR | GDAL_OF_RASTER);
     if (!data) {
         std::string const words = driver.take();
-        throw BadInput(is_plain_folder ? fmt::format("io.find_rivers: {} holds no rivers: {}", path, why_not(path))
-                                       : fmt::format("io.find_rivers: {} is not a file with lines that GDAL can read{}",
-                                                     source.path, words.empty() ? "" : " (" + words + ")"));
+        throw BadInput("io.find_rivers", is_plain_folder
+                                             ? fmt::format("{} holds no rivers: {}", path, why_not(path))
+                                             : fmt::format("{} is not a file with lines that GDAL can read{}",
+                                                           source.path, words.empty() ? "" : " (" + words + ")"));
     }
-    refuse_if<BadInput>(data->GetLayerCount() == 0 && data->GetRasterCount() > 0,
-                        "io.find_rivers: {} is a raster, not river lines", source.path);
-    require_lines(*data, source.path, "io.find_rivers");
+    refuse_if<BadInput>(data->GetLayerCount() == 0 && data->GetRasterCount() > 0, "io.find_rivers",
+                        "{} is a raster, not river lines", source.path);
+    require_lines(*data, {"io.find_rivers", source.path});
     source.layer = data->GetLayerByName("arcs") != nullptr ? "arcs" : is_osm_file(*data) ? "lines" : "";
     return source;
 }
@@ -156,8 +157,8 @@ NetworkPlace find_network(std::string const& path, bool whole) {
     bool const is_folder = !names_database(path) && fs::is_directory(file, ignored) && file.extension() != ".gdb";
     if (is_folder) {
         std::vector<std::string> const networks = networks_in(file, true);
-        refuse_if<BadInput>(networks.size() != 1,
-                            "io.read_network: {} holds {} files NAME_arcs.shp and no network.gpkg: name the file", path,
+        refuse_if<BadInput>(networks.size() != 1, "io.read_network",
+                            "{} holds {} files NAME_arcs.shp and no network.gpkg: name the file", path,
                             networks.size());
         file = networks.front();
     }
@@ -168,21 +169,22 @@ NetworkPlace find_network(std::string const& path, bool whole) {
 }
 
 NetworkSource open_network(std::string const& path, Driver const& driver) {
-    std::string const what = "io.read_network: " + without_passwords(path);
+    About const about{"io.read_network", without_passwords(path)};
     std::error_code ignored;
-    refuse_if<BadInput>(!names_database(path) && !fs::exists(path, ignored), "{} does not exist", what);
+    refuse_if<BadInput>(!names_database(path) && !fs::exists(path, ignored), about.where, "{} does not exist",
+                        about.name);
     Dataset dataset = open_unchanged(path, GDAL_OF_VECTOR);
     if (dataset == nullptr) {
         std::string const words = driver.take();
         auto const say = [&](std::string_view part) { return words.find(part) != std::string::npos; };
-        refuse_if<IoError>(say("database is locked") || say("readonly database"),
+        refuse_if<IoError>(say("database is locked") || say("readonly database"), about.where,
                            "{} is locked by another program, or was left in the middle of a change: close it there, or "
                            "open it once with the program that wrote it",
-                           what);
-        throw BadInput(fmt::format("{} cannot be read: {}", what, words));
+                           about.name);
+        throw BadInput(about.where, fmt::format("{} cannot be read: {}", about.name, words));
     }
     forget_archive(path, driver);
-    return {what, std::move(dataset)};
+    return {about, std::move(dataset)};
 }
 
 // Layers of a network.
@@ -195,9 +197,9 @@ void Layer::each(Driver const& driver, Run const& run, std::function<void(OGRFea
         body(*feature);
         ++read;
     }
-    driver.check(what);
-    refuse_if<IoError>(announced >= 0 && read != announced, "{}: {} of {} features could be read: the file is damaged",
-                       what, read, announced);
+    driver.check(about.where, about.name);
+    refuse_if<IoError>(announced >= 0 && read != announced, about.where,
+                       "{}: {} of {} features could be read: the file is damaged", about.name, read, announced);
 }
 
 Layer choose_arcs(NetworkSource const& source, Wish const& wish) {
@@ -207,18 +209,19 @@ Layer choose_arcs(NetworkSource const& source, Wish const& wish) {
         return layer_of(source, *layer, name);
     }
     if (!wish.arcs_layer.empty()) {
-        return layer_of(source, rivers_layers(data, name, source.what));
+        return layer_of(source, rivers_layers(data, name, source.about));
     }
     std::vector<OGRLayer*> const all = layers_of(data);
     std::vector<OGRLayer*> lines = all;
     std::erase_if(lines, [](OGRLayer* layer) { return !may_hold_lines(*layer); });
-    refuse_if<BadInput>(wish.whole && (all.size() != 1 || lines.empty()), "{} has no layer arcs", source.what);
+    refuse_if<BadInput>(wish.whole && (all.size() != 1 || lines.empty()), source.about.where, "{} has no layer arcs",
+                        source.about.name);
     if (lines.size() > 1) {
         std::vector<OGRLayer*> understood = lines;
         std::erase_if(understood, [](OGRLayer* layer) { return recognised(*layer).empty(); });
-        lines = understood.size() == 1 ? understood : rivers_layers(data, "", source.what);
+        lines = understood.size() == 1 ? understood : rivers_layers(data, "", source.about);
     }
-    refuse_if<BadInput>(lines.empty(), "{} has no layer of lines (there are {})", source.what,
+    refuse_if<BadInput>(lines.empty(), source.about.where, "{} has no layer of lines (there are {})", source.about.name,
                         listed(layer_names(all)));
     return wish.whole ? layer_of(source, *lines.front(), "arcs") : layer_of(source, lines);
 }
@@ -241,18 +244,17 @@ std::optional<Schema> choose_schema(Layer const& arcs, Wish const& wish) {
     if (is_enough || (found.empty() && takes_any_lines(wish))) {
         return std::nullopt;
     }
-    refuse_if<BadInput>(
-        found.empty(),
-        "{}: its fields ({}) match no schema ({}); name the schema, or the fields that hold arc_id and ds_arc, or "
-        "arc_id, from_node and to_node{}",
-        arcs.what, listed(field_names(*arcs.layer)), what_tells(),
-        field_names(*arcs.layer).empty() ? "; a shapefile without fields has lost its .dbf" : "");
+    refuse_if<BadInput>(found.empty(), arcs.about.where,
+                        "{}: its fields ({}) match no schema ({}); name the schema, or the fields that hold arc_id and "
+                        "ds_arc, or arc_id, from_node and to_node{}",
+                        arcs.about.name, listed(field_names(*arcs.layer)), what_tells(),
+                        field_names(*arcs.layer).empty() ? "; a shapefile without fields has lost its .dbf" : "");
     std::vector<std::string> names;
     for (Schema const schema : found) {
         names.emplace_back(table_of(schema).name);
     }
-    throw BadInput(
-        fmt::format("{}: its fields match several schemas ({}); name one of them", arcs.what, listed(names)));
+    throw BadInput(arcs.about.where, fmt::format("{}: its fields match several schemas ({}); name one of them",
+                                                 arcs.about.name, listed(names)));
 }
 
 std::optional<Layer> choose_nodes(NetworkSource const* source, NetworkSource const& arcs_source, Layer const& arcs,

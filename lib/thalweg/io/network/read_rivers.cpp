@@ -64,15 +64,14 @@ public:
                         .direction = column(params.direction_field),
                         .rank = number_column(params.rank_field)}),
           natural_(layer), lake_(layer), attributes_(layer) {
-        refuse_if<BadInput>(height_.is_there() && !height_.is_number(),
-                            "io.read_rivers: field {} of {} is not a number field: it holds no heights",
-                            params.height_field, name);
+        refuse_if<BadInput>(height_.is_there() && !height_.is_number(), "io.read_rivers",
+                            "field {} of {} is not a number field: it holds no heights", params.height_field, name);
         if (!params.where.empty()) {
             where_ = std::make_unique<OGRFeatureQuery>();
             refuse_if<BadInput>(where_->Compile(&layer, params.where.c_str(), TRUE, nullptr) != OGRERR_NONE,
-                                "io.read_rivers: network.lines.where = \"{}\" is no condition on fields of {}: {} "
-                                "({})",
-                                params.where, name, CPLGetLastErrorMsg(), listed(field_names(layer)));
+                                "io.read_rivers",
+                                "network.lines.where = \"{}\" is no condition on fields of {}: {} ({})", params.where,
+                                name, CPLGetLastErrorMsg(), listed(field_names(layer)));
         }
     }
 
@@ -140,17 +139,16 @@ private:
         }
         if (!field.empty() && !found.is_there() && field != by_default) {
             auto const names = field_names(layer_);
-            throw BadInput(fmt::format("io.read_rivers: layer {} of {} has no field '{}'.{} ({})", layer_.GetName(),
-                                       name_, field, did_you_mean(field, names), listed(names)));
+            throw BadInput("io.read_rivers", fmt::format("layer {} of {} has no field '{}'.{} ({})", layer_.GetName(),
+                                                         name_, field, did_you_mean(field, names), listed(names)));
         }
         return found;
     }
 
     FileColumn number_column(std::string const& field) const {
         FileColumn found = column(field);
-        refuse_if<BadInput>(found.is_there() && !found.is_number(),
-                            "io.read_rivers: field {} of {} is not a number field: it cannot rank rivers", field,
-                            name_);
+        refuse_if<BadInput>(found.is_there() && !found.is_number(), "io.read_rivers",
+                            "field {} of {} is not a number field: it cannot rank rivers", field, name_);
         return found;
     }
 
@@ -202,9 +200,9 @@ private:
             return 0;
         }
         double const value = lambda_.real(feature);
-        refuse_if<BadInput>(!(value >= 1.0 && value <= 50.0) || value != std::floor(value),
-                            "io.read_rivers: feature {} of {}, which begins at ({}, {}), has the {} '{}': a whole "
-                            "number from 1 to 50 is required, or none",
+        refuse_if<BadInput>(!(value >= 1.0 && value <= 50.0) || value != std::floor(value), "io.read_rivers",
+                            "feature {} of {}, which begins at ({}, {}), has the {} '{}': a whole number from 1 to 50 "
+                            "is required, or none",
                             number_, name_, line.vertices.front().x, line.vertices.front().y, lambda_.name(),
                             lambda_.text(feature));
         return static_cast<int>(value);
@@ -216,9 +214,8 @@ private:
         for (std::vector<Vec3>& part : parts_of(shape, number_, shapes_)) {
             for (std::size_t i = 0; i < part.size(); ++i) {
                 Vec3 const& v = part[i];
-                refuse_if<BadInput>(!is_finite(in_plan(v)) || std::isinf(v.z),
-                                    "io.read_rivers: vertex {} of feature {} of {} is not finite: ({}, {}, {}); "
-                                    "correct the file",
+                refuse_if<BadInput>(!is_finite(in_plan(v)) || std::isinf(v.z), "io.read_rivers",
+                                    "vertex {} of feature {} of {} is not finite: ({}, {}, {}); correct the file",
                                     i + 1, number_, name_, v.x, v.y, v.z);
             }
             if (std::ranges::any_of(part, [&](Vec3 const& v) { return in_plan(v) != in_plan(part.front()); })) {
@@ -258,22 +255,23 @@ private:
     std::int64_t raised_ = 0; ///< lines whose heights come from fields
 };
 
-void require_any(LineReader const& read, std::string const& what, std::string const& where) {
+void require_any(LineReader const& read, About const& about, std::string const& where) {
     if (!read.lines.empty()) {
         return;
     }
     if (!read.others.empty()) {
-        throw BadInput(fmt::format("{} holds no natural watercourse: {} lines are left out, the first of them for "
-                                   "{}; set network.lines.filter = \"none\" to take them all",
-                                   what, read.others.size(), read.others.front().why.reason));
+        throw BadInput(about.where, fmt::format("{} holds no natural watercourse: {} lines are left out, the first of "
+                                                "them for {}; set network.lines.filter = \"none\" to take them all",
+                                                about.name, read.others.size(), read.others.front().why.reason));
     }
     auto const why = std::ranges::find_if(read.findings, [](Finding const& f) {
         return f.kind == FindingKind("not_a_line") || f.kind == FindingKind("left_out");
     });
-    refuse_if<BadInput>(!where.empty() && why == read.findings.end(),
-                        "{}: no feature meets network.lines.where = \"{}\"", what, where);
-    throw BadInput(why == read.findings.end() ? what + " is empty"
-                                              : fmt::format("{} holds no line: {}", what, why->text));
+    refuse_if<BadInput>(!where.empty() && why == read.findings.end(), about.where,
+                        "{}: no feature meets network.lines.where = \"{}\"", about.name, where);
+    throw BadInput(about.where, why == read.findings.end()
+                                    ? about.name + " is empty"
+                                    : fmt::format("{} holds no line: {}", about.name, why->text));
 }
 
 /// Brings a line into metres.
@@ -288,8 +286,8 @@ struct Bring {
         for (std::size_t i = 0; i < done.size(); ++i) {
             Vec3& v = line.vertices[i];
             if (done[i] == 0) {
-                throw BadInput(fmt::format("io.read_rivers: vertex {} of feature {} of {}, ({}, {}), cannot be "
-                                           "reprojected to {}: {}",
+                throw BadInput("io.read_rivers",
+                               fmt::format("vertex {} of feature {} of {}, ({}, {}), cannot be reprojected to {}: {}",
                                            i + 1, line.feature, name, v.x, v.y, metres.crs(), driver.take()));
             }
             v = {rounded(v.x), rounded(v.y), height_unit * v.z};
@@ -320,13 +318,13 @@ HeightsOfLines heights_of(std::vector<RiverLine> const& lines) {
 }
 
 void require_halves(ReadRiversParams const& params) {
-    refuse_if<BadParameter>(params.id_field.empty() != params.down_field.empty(),
-                            "io.read_rivers: the field '{}' is named without its other half: links need the field of a "
-                            "line's id and that of the id downstream",
+    refuse_if<BadParameter>(params.id_field.empty() != params.down_field.empty(), "io.read_rivers",
+                            "the field '{}' is named without its other half: links need the field of a line's id and "
+                            "that of the id downstream",
                             params.id_field.empty() ? params.down_field : params.id_field);
-    refuse_if<BadParameter>(params.from_field.empty() != params.to_field.empty(),
-                            "io.read_rivers: the field '{}' is named without its other half: nodes need the field of "
-                            "that from which water comes and that of the one to which it goes",
+    refuse_if<BadParameter>(params.from_field.empty() != params.to_field.empty(), "io.read_rivers",
+                            "the field '{}' is named without its other half: nodes need the field of that from which "
+                            "water comes and that of the one to which it goes",
                             params.from_field.empty() ? params.to_field : params.from_field);
 }
 
@@ -356,30 +354,30 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
     if (!data) {
         auto const words = driver.take();
         VSIStatBufL status;
-        refuse_if<BadInput>(path.empty() || VSIStatL(path.c_str(), &status) != 0,
-                            "io.read_rivers: there is no file '{}'{}", path, words.empty() ? "" : " (" + words + ")");
-        refuse_folder(path, "io.read_rivers: " + path);
-        throw BadInput(fmt::format("io.read_rivers: {} is not a vector file that GDAL can read ({})", path, words));
+        refuse_if<BadInput>(path.empty() || VSIStatL(path.c_str(), &status) != 0, "io.read_rivers",
+                            "there is no file '{}'{}", path, words.empty() ? "" : " (" + words + ")");
+        refuse_folder(path, {"io.read_rivers", path});
+        throw BadInput("io.read_rivers", fmt::format("{} is not a vector file that GDAL can read ({})", path, words));
     }
     forget_archive(path, driver);
     std::vector<OGRLayer*> const layers = params.rings && params.layer.empty()
-                                              ? layers_of_areas(*data, "io.read_rivers: " + rivers.name)
-                                              : rivers_layers(*data, params.layer, "io.read_rivers: " + rivers.name);
-    ChosenLayer const chosen = as_one(layers, "io.read_rivers: " + rivers.name);
+                                              ? layers_of_areas(*data, {"io.read_rivers", rivers.name})
+                                              : rivers_layers(*data, params.layer, {"io.read_rivers", rivers.name});
+    ChosenLayer const chosen = as_one(layers, {"io.read_rivers", rivers.name});
     OGRLayer& layer = *chosen.layer;
-    std::string const what = fmt::format("io.read_rivers: layer {} of {}", chosen.name, rivers.name);
+    About const about{"io.read_rivers", fmt::format("layer {} of {}", chosen.name, rivers.name)};
     LineReader read(layer, params, rivers.name);
     read.read(run);
-    driver.check("io.read_rivers: " + path);
+    driver.check("io.read_rivers", path);
     if (params.may_be_empty && read.lines.empty() && read.others.empty() && read.findings.empty()) {
         rivers.crs = params.crs;
         return rivers;
     }
-    require_any(read, what, params.where);
+    require_any(read, about, params.where);
     std::string const source_crs = params.source_crs.value_or("");
     OGRSpatialReference const own = crs_of_layer(layer.GetSpatialRef(), source_crs);
-    refuse_if<BadInput>(own.IsEmpty() != 0, "{} has no CRS; assign one (ogr2ogr -a_srs EPSG:n){}", what,
-                        params.source_crs ? " or name it (--source-crs EPSG:n)" : "");
+    refuse_if<BadInput>(own.IsEmpty() != 0, about.where, "{} has no CRS; assign one (ogr2ogr -a_srs EPSG:n){}",
+                        about.name, params.source_crs ? " or name it (--source-crs EPSG:n)" : "");
     FilePlaces places;
     for (auto const& line : read.lines) {
         for (auto const& v : line.vertices) {
@@ -414,7 +412,8 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
     rivers.lines = std::move(read.lines);
     rivers.findings = std::move(read.findings);
     if (params.layer.empty()) {
-        std::vector<Finding> const others = layers_not_read(*data, layers, metres.crs(), source_crs, rivers.name);
+        std::vector<Finding> const others =
+            layers_not_read(*data, layers, metres.crs(), source_crs, {about.where, rivers.name});
         rivers.findings.insert(rivers.findings.end(), others.begin(), others.end());
     }
     rivers.lakes = into_metres(std::move(read.lakes), metres);

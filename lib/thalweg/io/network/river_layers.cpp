@@ -50,7 +50,7 @@ bool is_line(OGRwkbGeometryType type) {
 enum class Holds : std::uint8_t { lines, other, nothing };
 
 // A layer of any shapes holds lines when one of its first features is one: exports of OpenStreetMap begin with nodes.
-Holds content_of(OGRLayer& layer, std::string const& what) {
+Holds content_of(OGRLayer& layer, About const& about) {
     constexpr int most_features = 1000000;
     auto const type = wkbFlatten(layer.GetGeomType());
     if (!may_hold_lines(layer)) {
@@ -68,7 +68,7 @@ Holds content_of(OGRLayer& layer, std::string const& what) {
         holds = is_line(drawn) || drawn == wkbGeometryCollection ? Holds::lines : Holds::other;
     }
     layer.ResetReading();
-    driver.check(fmt::format("{}, layer {}", what, layer.GetName()));
+    driver.check(about.where, fmt::format("{}, layer {}", about.name, layer.GetName()));
     return holds;
 }
 
@@ -108,7 +108,7 @@ OGRLayer* ways_of(GDALDataset& data) {
 }
 
 /// The layers with lines; where there is none, those without features that may get some.
-std::vector<OGRLayer*> line_layers(GDALDataset& data, std::string const& what) {
+std::vector<OGRLayer*> line_layers(GDALDataset& data, About const& about) {
     if (OGRLayer* const ways = ways_of(data)) {
         return {ways};
     }
@@ -116,12 +116,12 @@ std::vector<OGRLayer*> line_layers(GDALDataset& data, std::string const& what) {
     std::vector<OGRLayer*> empty;
     std::vector<OGRLayer*> const all = layers_of(data);
     for (OGRLayer* const layer : all) {
-        Holds const holds = content_of(*layer, what);
+        Holds const holds = content_of(*layer, about);
         if (holds != Holds::other) {
             (holds == Holds::lines ? lines : empty).push_back(layer);
         }
     }
-    refuse_if<BadInput>(lines.empty() && empty.empty(), "{} has no layer with lines ({})", what,
+    refuse_if<BadInput>(lines.empty() && empty.empty(), about.where, "{} has no layer with lines ({})", about.name,
                         listed(layer_names(all)));
     return lines.empty() ? empty : lines;
 }
@@ -150,7 +150,7 @@ std::string without_blanks(std::string_view text) {
 }
 
 /// A layer by its name, or several whose names are separated by commas.
-std::vector<OGRLayer*> named_layers(GDALDataset& data, std::string const& wanted, std::string const& what) {
+std::vector<OGRLayer*> named_layers(GDALDataset& data, std::string const& wanted, About const& about) {
     std::vector<OGRLayer*> const all = layers_of(data);
     auto const find = [&](std::string const& name) {
         return std::ranges::find(all, name, [](OGRLayer* layer) { return layer->GetName(); });
@@ -169,11 +169,11 @@ std::vector<OGRLayer*> named_layers(GDALDataset& data, std::string const& wanted
         auto const at = find(name);
         if (at == all.end()) {
             auto const names = layer_names(all);
-            throw BadInput(
-                fmt::format("{} has no layer '{}'.{} ({})", what, name, did_you_mean(name, names), listed(names)));
+            throw BadInput(about.where, fmt::format("{} has no layer '{}'.{} ({})", about.name, name,
+                                                    did_you_mean(name, names), listed(names)));
         }
-        refuse_if<BadInput>(!may_hold_lines(**at), "{}, layer {}: it holds {}, not lines", what, name,
-                            OGRGeometryTypeToName(wkbFlatten((*at)->GetGeomType())));
+        refuse_if<BadInput>(!may_hold_lines(**at), about.where, "{}, layer {}: it holds {}, not lines", about.name,
+                            name, OGRGeometryTypeToName(wkbFlatten((*at)->GetGeomType())));
         if (std::ranges::find(found, *at) == found.end()) {
             found.push_back(*at);
         }
@@ -206,7 +206,7 @@ void add_fields(OGRLayer& into, std::vector<OGRLayer*> const& layers) {
     }
 }
 
-void copy_features(OGRLayer& into, OGRLayer& from, std::string const& what) {
+void copy_features(OGRLayer& into, OGRLayer& from, About const& about) {
     std::vector<int> column; // by field
     for (int i = 0; i < from.GetLayerDefn()->GetFieldCount(); ++i) {
         column.push_back(into.GetLayerDefn()->GetFieldIndex(from.GetLayerDefn()->GetFieldDefn(i)->GetNameRef()));
@@ -219,8 +219,8 @@ void copy_features(OGRLayer& into, OGRLayer& from, std::string const& what) {
         if (!has_own) {
             copy.SetField(own_column, from.GetName());
         }
-        refuse_if<IoError>(into.CreateFeature(&copy) != OGRERR_NONE, "{}: no memory for layer {}", what,
-                           from.GetName());
+        refuse_if<IoError>(into.CreateFeature(&copy) != OGRERR_NONE, about.where, "{}: no memory for layer {}",
+                           about.name, from.GetName());
     }
 }
 
@@ -259,15 +259,15 @@ bool may_hold_lines(OGRLayer& layer) {
     return type == wkbUnknown || type == wkbGeometryCollection || is_line(type);
 }
 
-void require_lines(GDALDataset& data, std::string const& name, std::string const& who) {
-    line_layers(data, who + ": " + name);
+void require_lines(GDALDataset& data, About const& about) {
+    line_layers(data, about);
 }
 
-std::vector<OGRLayer*> rivers_layers(GDALDataset& data, std::string const& wanted, std::string const& what) {
+std::vector<OGRLayer*> rivers_layers(GDALDataset& data, std::string const& wanted, About const& about) {
     if (!wanted.empty()) {
-        return named_layers(data, wanted, what);
+        return named_layers(data, wanted, about);
     }
-    std::vector<OGRLayer*> lines = line_layers(data, what);
+    std::vector<OGRLayer*> lines = line_layers(data, about);
     if (lines.size() > 1 && belong_together(data)) {
         std::vector<OGRLayer*> rivers = lines;
         std::erase_if(rivers, names_other_lines);
@@ -277,17 +277,17 @@ std::vector<OGRLayer*> rivers_layers(GDALDataset& data, std::string const& wante
     OGRLayer* const best = *std::ranges::min_element(lines, {}, rank);
     if (std::ranges::count(lines, rank(best), rank) > 1) {
         throw BadInput(
-            fmt::format("{} has {} layers with lines ({}): name the one with the rivers, "
-                        "--set network.lines.layer=NAME (check and convert: --layer NAME), or several, separated by "
-                        "commas",
-                        what, lines.size(), listed(layer_names(lines))));
+            about.where,
+            fmt::format("{} has {} layers with lines ({}): name the one with the rivers, --set "
+                        "network.lines.layer=NAME (check and convert: --layer NAME), or several, separated by commas",
+                        about.name, lines.size(), listed(layer_names(lines))));
     }
     return {best};
 }
 
 // Several layers as one.
 
-ChosenLayer as_one(std::vector<OGRLayer*> const& layers, std::string const& what) {
+ChosenLayer as_one(std::vector<OGRLayer*> const& layers, About const& about) {
     ChosenLayer chosen{layers.front(), listed(layer_names(layers))};
     if (layers.size() == 1) {
         return chosen;
@@ -297,16 +297,17 @@ ChosenLayer as_one(std::vector<OGRLayer*> const& layers, std::string const& what
         OGRSpatialReference const own = crs_of_layer(layer->GetSpatialRef(), "");
         refuse_if<BadInput>(crs.IsEmpty() != own.IsEmpty() ||
                                 (own.IsEmpty() == 0 && own.IsSame(&crs) == 0 && name_of(own) != name_of(crs)),
+                            about.where,
                             "{}: layers {} and {} have different coordinate systems, and one drawing has one: "
                             "reproject one of them (ogr2ogr -t_srs)",
-                            what, layers.front()->GetName(), layer->GetName());
+                            about.name, layers.front()->GetName(), layer->GetName());
     }
     Dataset memory(GetGDALDriverManager()->GetDriverByName("Memory")->Create("", 0, 0, 0, GDT_Unknown, nullptr));
-    refuse_if<IoError>(memory == nullptr, "{}: no memory for {}", what, chosen.name);
+    refuse_if<IoError>(memory == nullptr, about.where, "{}: no memory for {}", about.name, chosen.name);
     chosen.layer = memory->CreateLayer(chosen.name.c_str(), layers.front()->GetSpatialRef(), wkbUnknown, nullptr);
     add_fields(*chosen.layer, layers);
     for (OGRLayer* const layer : layers) {
-        copy_features(*chosen.layer, *layer, what);
+        copy_features(*chosen.layer, *layer, about);
     }
     chosen.holds = std::move(memory);
     return chosen;
@@ -315,13 +316,13 @@ ChosenLayer as_one(std::vector<OGRLayer*> const& layers, std::string const& what
 // Layers that are not read.
 
 std::vector<Finding> layers_not_read(GDALDataset& data, std::vector<OGRLayer*> const& read, std::string const& crs,
-                                     std::string const& source_crs, std::string const& name) {
+                                     std::string const& source_crs, About const& about) {
     if (is_in_network_schema(*read.front()) || is_osm(*read.front(), "lines")) {
         return {}; // whose other layers hold the same lines, or what the network left out
     }
     std::vector<OGRLayer*> others = layers_of(data);
     std::erase_if(others, [&](OGRLayer* layer) {
-        return std::ranges::find(read, layer) != read.end() || content_of(*layer, name) != Holds::lines;
+        return std::ranges::find(read, layer) != read.end() || content_of(*layer, about) != Holds::lines;
     });
     if (others.empty()) {
         return {};
@@ -329,7 +330,7 @@ std::vector<Finding> layers_not_read(GDALDataset& data, std::vector<OGRLayer*> c
     double all_m = 0.0;
     std::vector<std::string> words;
     for (OGRLayer* const layer : others) {
-        double const length_m = length_or_none(*layer, crs, source_crs, name);
+        double const length_m = length_or_none(*layer, crs, source_crs, about.name);
         all_m += length_m;
         words.push_back(length_m > 0.0 ? fmt::format("{} ({:.1f} km)", layer->GetName(), length_m / 1000.0)
                                        : layer->GetName());
@@ -338,11 +339,11 @@ std::vector<Finding> layers_not_read(GDALDataset& data, std::vector<OGRLayer*> c
     all.emplace_back(others.front()->GetName());
     return {{.kind = "layers_not_read",
              .amount = all_m,
-             .text = fmt::format("{}: lines of other layers are not read: {}; rivers are those of {}", name,
+             .text = fmt::format("{}: lines of other layers are not read: {}; rivers are those of {}", about.name,
                                  fmt::join(words, ", "), listed(layer_names(read))),
              .remedy = fmt::format("Take several by their names: network.lines.layer = \"{}\"", fmt::join(all, ",")),
              .key = "network.lines.layer",
-             .layer = name}};
+             .layer = about.name}};
 }
 
 } // namespace thalweg::io

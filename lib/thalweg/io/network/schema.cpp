@@ -434,7 +434,7 @@ Schema schema_named(std::string const& name) {
         names.emplace_back(table.name);
     }
     auto const found = std::ranges::find(names, name);
-    refuse_if<BadInput>(found == names.end(), "io.schema_named: there is no schema '{}'.{} ({})", name,
+    refuse_if<BadInput>(found == names.end(), "io.schema_named", "there is no schema '{}'.{} ({})", name,
                         did_you_mean(name, names), listed(names));
     return static_cast<Schema>(found - names.begin());
 }

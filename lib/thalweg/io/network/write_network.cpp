@@ -71,8 +71,7 @@ std::string well_known(Table const& lines, std::size_t row) {
 // number
 // + 1.
 
-std::string value_text(Table const& table, Column const& column, std::size_t row, Quote quote,
-                       std::string const& what) {
+std::string value_text(Table const& table, Column const& column, std::size_t row, Quote quote, About const& about) {
     Value const value = column.at(row);
     if (std::holds_alternative<std::monostate>(value)) {
         return quote == in_python ? "None" : "";
@@ -84,8 +83,8 @@ std::string value_text(Table const& table, Column const& column, std::size_t row
         return fmt::format("{}", *whole);
     }
     double const real = std::get<double>(value);
-    refuse_if<BadInput>(!std::isfinite(real), "{}: {} {} has {} = {}, which cannot be written", what, table.name,
-                        row + 1, column.name, real);
+    refuse_if<BadInput>(!std::isfinite(real), about.where, "{}: {} {} has {} = {}, which cannot be written", about.name,
+                        table.name, row + 1, column.name, real);
     return fmt::format("{:#}", real); // with a point: nobody takes it for an integer
 }
 
@@ -105,10 +104,10 @@ std::string graphml_key(std::string const& id, char const* of, std::string const
 // bit for bit. It throws BadInput naming table, row and column when a number is not finite; IoError, also when the file
 // exists. Source: GraphML 1.0.
 void write_graphml(NetworkTables const& tables, Table const& arcs, std::string const& path, Run const& run) {
-    std::string const what = "io.write_graphml: " + path;
+    About const about{"io.write_network", path};
     StreamNetwork const& plan = tables.network.planform;
     Table const nodes = nodes_table(tables);
-    NewFile graph(path, what);
+    NewFile graph(path, about);
     graph.append("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
                  "<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n" +
                  graphml_key("crs", "graph", "crs", "string") + graphml_key("x", "node", "x", "double") +
@@ -130,7 +129,7 @@ void write_graphml(NetworkTables const& tables, Table const& arcs, std::string c
                 continue; // an empty text is no number
             }
             out += fmt::format("<data key=\"{}{}\">{}</data>", letter, i,
-                               value_text(table, table.columns[i], row, xml_escaped, what));
+                               value_text(table, table.columns[i], row, xml_escaped, about));
         }
         return out;
     };
@@ -154,9 +153,9 @@ void write_graphml(NetworkTables const& tables, Table const& arcs, std::string c
 // dictionary of the other columns a line, comments first. networkx.read_edgelist(PATH, nodetype=int,
 // create_using=networkx.DiGraph) reads it. Like write_graphml for the rest.
 void write_edges(NetworkTables const& tables, Table arcs, std::string const& path, bool is_csv, Run const& run) {
-    std::string const what = fmt::format("io.{}: {}", is_csv ? "write_edge_table" : "write_edge_list", path);
+    About const about{"io.write_network", path};
     StreamNetwork const& plan = tables.network.planform;
-    NewFile graph(path, what);
+    NewFile graph(path, about);
     std::erase_if(arcs.columns, [](Column const& c) { return c.name == "from_node" || c.name == "to_node"; });
     if (is_csv) {
         graph.append("from_node,to_node");
@@ -170,7 +169,7 @@ void write_edges(NetworkTables const& tables, Table arcs, std::string const& pat
     each_row(arcs, run, [&](std::size_t row) {
         std::string line;
         for (Column const& column : arcs.columns) {
-            std::string const value = value_text(arcs, column, row, is_csv ? in_csv : in_python, what);
+            std::string const value = value_text(arcs, column, row, is_csv ? in_csv : in_python, about);
             line += is_csv ? fmt::format("{},", value)
                            : fmt::format("{}{}: {}", line.empty() ? "" : ", ", in_python(column.name), value);
         }
@@ -223,21 +222,22 @@ Names names_of(std::string const& text) {
     std::size_t const dot = text.find('.');
     Names names{dot == std::string::npos ? "" : text.substr(0, dot),
                 dot == std::string::npos ? text : text.substr(dot + 1)};
-    refuse_if<BadParameter>((dot != std::string::npos && !is_plain_word(names.schema)) || !is_plain_word(names.name),
-                            "io.write_postgis: '{}' is not a valid table name: write NAME or SCHEMA.NAME in lower-case "
-                            "letters, digits and _, at most 50",
-                            text);
+    refuse_if<BadParameter>(
+        (dot != std::string::npos && !is_plain_word(names.schema)) || !is_plain_word(names.name), "io.write_postgis",
+        "'{}' is not a valid table name: write NAME or SCHEMA.NAME in lower-case letters, digits and _, at most 50",
+        text);
     return names;
 }
 
-Dataset open_database(std::string const& connection, std::string const& what, Driver const& driver) {
+Dataset open_database(std::string const& connection, About const& about, Driver const& driver) {
     std::array<char const*, 2> constexpr drivers{"PostgreSQL", nullptr};
     std::array<char const*, 2> constexpr options{"LIST_ALL_TABLES=NO", nullptr};
     Dataset dataset(
         GDALDataset::Open(connection.c_str(), GDAL_OF_VECTOR | GDAL_OF_UPDATE, drivers.data(), options.data()));
     if (dataset == nullptr) {
         std::string const reason = driver.take();
-        throw IoError(fmt::format("{} cannot be reached: {}", what, reason.empty() ? "no reason given" : reason));
+        throw IoError(about.where,
+                      fmt::format("{} cannot be reached: {}", about.name, reason.empty() ? "no reason given" : reason));
     }
     return dataset;
 }
@@ -245,10 +245,10 @@ Dataset open_database(std::string const& connection, std::string const& what, Dr
 /// A database in a transaction, which is rolled back unless commit() is called.
 class Database {
 public:
-    Database(std::string const& connection, std::string const& what, std::string const& crs, std::string const& schema)
-        : dataset_(open_database(connection, what, driver_)),
+    Database(std::string const& connection, About const& about, std::string const& crs, std::string const& schema)
+        : dataset_(open_database(connection, about, driver_)),
           reference_(crs.empty() ? OGRSpatialReference() : read_reference(crs)),
-          target_{LayerFormat::postgresql, what, driver_, *dataset_, crs.empty() ? nullptr : &reference_, schema} {
+          target_{LayerFormat::postgresql, about, driver_, *dataset_, crs.empty() ? nullptr : &reference_, schema} {
         target_.require(dataset_->StartTransaction() == OGRERR_NONE);
     }
     ~Database() {
@@ -262,7 +262,7 @@ public:
     /// The first field of the first row that a query gives, "" for none.
     std::string ask(std::string const& sql) {
         OGRLayer* const result = dataset_->ExecuteSQL(sql.c_str(), nullptr, nullptr);
-        driver_.check(target_.what);
+        driver_.check(target_.about.where, target_.about.name);
         std::string answer;
         if (result != nullptr) {
             if (OGRFeatureUniquePtr const row{result->GetNextFeature()}; row != nullptr && row->GetFieldCount() > 0) {
@@ -282,7 +282,7 @@ public:
     void commit() {
         target_.require(dataset_->CommitTransaction() == OGRERR_NONE);
         open_ = false;
-        driver_.check(target_.what);
+        driver_.check(target_.about.where, target_.about.name);
     }
 
 private:
@@ -308,11 +308,11 @@ std::string edges_view(Names const& names, std::string const& table, SchemaTable
 void write_geopackage(NetworkTables const& tables, std::string const& path, Run const& run) {
     bool const is_named_so = lower_case(std::filesystem::path(path).extension().string()) == ".gpkg";
     std::string const file = is_named_so ? path : path + ".gpkg";
-    write_tables(geopackage_tables(tables, "io.write_geopackage: " + file), tables.crs, file, run);
+    write_tables(geopackage_tables(tables, {"io.write_geopackage", file}), tables.crs, file, run);
 }
 
 void write_shapefiles(NetworkTables const& tables, std::string const& path, Run const& run) {
-    for (Table const& layer : network_layers(tables, Schema::native, true, "io.write_shapefiles: " + path)) {
+    for (Table const& layer : network_layers(tables, Schema::native, true, {"io.write_shapefiles", path})) {
         write_file({&layer, 1}, tables.crs, fmt::format("{}_{}.shp", path, layer.name), LayerFormat::shapefile, run);
     }
 }
@@ -321,9 +321,9 @@ std::vector<ShortenedName> shortened_names(NetworkTables const& tables, Schema s
     if (tables.user == nullptr) {
         return {};
     }
-    std::string const what = "io.shortened_names";
-    Table const full = network_layers(tables, schema, false, what).front();
-    Table const cut = network_layers(tables, schema, true, what).front();
+    About const about{"io.shortened_names", ""};
+    Table const full = network_layers(tables, schema, false, about).front();
+    Table const cut = network_layers(tables, schema, true, about).front();
     std::vector<ShortenedName> names;
     for (std::size_t c = 0; c < full.columns.size(); ++c) {
         if (full.columns[c].is_users && full.columns[c].name != cut.columns[c].name) {
@@ -374,7 +374,7 @@ void write_network(NetworkTables const& tables, std::string const& path, WriteNe
         return;
     }
     bool const is_shapefile = params.format == NetworkFormat::shapefile;
-    std::vector<Table> const layers = network_layers(tables, params.schema, is_shapefile, "io.write_network: " + path);
+    std::vector<Table> const layers = network_layers(tables, params.schema, is_shapefile, {"io.write_network", path});
     switch (params.format) {
     case NetworkFormat::geopackage: write_tables(layers, tables.crs, path, run); break;
     case NetworkFormat::graphml: write_graphml(tables, layers.front(), path, run); break;
@@ -419,8 +419,8 @@ bool is_postgis(std::string const& name) {
 std::vector<std::string> write_postgis(NetworkTables const& tables, std::string const& connection,
                                        WritePostgisParams const& params, Run const& run) {
     Names const names = names_of(params.name);
-    std::string const what = "io.write_postgis: " + names.full(names.name);
-    std::vector<Table> layers = network_layers(tables, params.schema, false, what);
+    About const about{"io.write_postgis", names.full(names.name)};
+    std::vector<Table> layers = network_layers(tables, params.schema, false, about);
     bool const routable = field_of(table_of(params.schema), Quantity::from_node) != nullptr;
     std::vector<std::string> relations;
     for (Table& layer : layers) {
@@ -431,11 +431,11 @@ std::vector<std::string> write_postgis(NetworkTables const& tables, std::string 
         relations.push_back(names.edges());
     }
 
-    Database database(connection, what, tables.crs, names.schema);
+    Database database(connection, about, tables.crs, names.schema);
     refuse_if<BadInput>(
         !names.schema.empty() &&
             database.ask(fmt::format("SELECT 1 FROM pg_namespace WHERE nspname = '{}'", names.schema)).empty(),
-        "{}: the database has no schema {}: create it first", what, names.schema);
+        about.where, "{}: the database has no schema {}: create it first", about.name, names.schema);
     for (auto relation = relations.rbegin(); relation != relations.rend(); ++relation) { // the view before its table
         std::string const kind = database.ask(
             fmt::format("SELECT relkind FROM pg_class WHERE oid = to_regclass('{}')", names.full(*relation)));
@@ -443,10 +443,12 @@ std::vector<std::string> write_postgis(NetworkTables const& tables, std::string 
             continue;
         }
         bool const is_view = routable && *relation == names.edges();
-        refuse_if<BadInput>(!params.overwrite, "{}: {} already exists: give another name (--table) or use --overwrite",
-                            what, names.full(*relation));
-        refuse_if<BadInput>(kind != (is_view ? "v" : "r"), "{}: {} is not a {} written by thalweg, and is not replaced",
-                            what, names.full(*relation), is_view ? "view" : "table");
+        refuse_if<BadInput>(!params.overwrite, about.where,
+                            "{}: {} already exists: give another name (--table) or use --overwrite", about.name,
+                            names.full(*relation));
+        refuse_if<BadInput>(kind != (is_view ? "v" : "r"), about.where,
+                            "{}: {} is not a {} written by thalweg, and is not replaced", about.name,
+                            names.full(*relation), is_view ? "view" : "table");
         database.ask(fmt::format("DROP {} {}", is_view ? "VIEW" : "TABLE", names.full(*relation)));
     }
     for (Table const& layer : layers) {

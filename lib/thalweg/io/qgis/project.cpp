@@ -157,10 +157,10 @@ std::string project_text(QgisProject const& project) {
 } // namespace
 
 void write_qgis_project(QgisProject const& project, std::string const& path) {
-    std::string const what = "io.write_qgis_project: " + path;
+    About const about{"io.write_qgis_project", path};
     Driver const driver;
     std::string const text = project_text(project);
-    driver.check(what);
+    driver.check(about.where, about.name);
     write_text(path, zip_archive("project.qgs", text));
 }
 

@@ -363,7 +363,7 @@ QgisStyle water_style() {
 // Rasters and meshes.
 
 QgisStyle tint_style(Tints const& tints, std::string const& unit, std::string const& no_data) {
-    refuse_if<BadInput>(tints.size() < 2, "io.tint_style: {} tints; there must be two or more", tints.size());
+    refuse_if<BadInput>(tints.size() < 2, "io.tint_style", "{} tints; there must be two or more", tints.size());
     return raster_pipe(pseudocolour(tints, unit, no_data, legend(unit)), {}, multiply, smooth);
 }
 
@@ -387,9 +387,8 @@ QgisStyle mask_style(std::string const& label, std::string const& colour_code) {
 
 QgisStyle area_style(double smallest, double greatest) {
     constexpr std::array<char const*, 5> colours{{"#f7fbff", "#c9ddf0", "#85b6dd", "#2f74b5", "#08306b"}};
-    refuse_if<BadInput>(!(smallest > 0.0) || !(greatest >= smallest),
-                        "io.area_style: areas from {} to {} m2; they must be greater than 0 and ascend", smallest,
-                        greatest);
+    refuse_if<BadInput>(!(smallest > 0.0) || !(greatest >= smallest), "io.area_style",
+                        "areas from {} to {} m2; they must be greater than 0 and ascend", smallest, greatest);
     double const high = std::max(greatest, 16.0 * smallest);
     double const middle = std::sqrt(smallest * high);
     std::array<double, 5> const steps{smallest, std::sqrt(smallest * middle), middle, std::sqrt(middle * high), high};
@@ -401,7 +400,7 @@ QgisStyle area_style(double smallest, double greatest) {
 }
 
 QgisStyle mesh_style(Tints const& tints, std::string const& unit) {
-    refuse_if<BadInput>(tints.size() < 2, "io.mesh_style: {} tints; there must be two or more", tints.size());
+    refuse_if<BadInput>(tints.size() < 2, "io.mesh_style", "{} tints; there must be two or more", tints.size());
     return fmt::format(
         "<mesh-renderer-settings><active-dataset-group scalar=\"0\" vector=\"-1\"/>"
         "<scalar-settings group=\"0\" min-val=\"{0}\" max-val=\"{1}\" opacity=\"1\" interpolation-method=\"none\">{2}"
@@ -420,12 +419,12 @@ QgisStyle mesh_style(Tints const& tints, std::string const& unit) {
 // Where they stand in a GeoPackage.
 
 std::map<std::string, QgisStyle> styles_of(std::string const& path) {
-    std::string const what = "io.styles_of: " + path;
+    About const about{"io.styles_of", path};
     Driver const driver;
     std::map<std::string, QgisStyle> styles;
     {
         Dataset const data(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
-        refuse_if<IoError>(data == nullptr, "{} cannot be opened", what);
+        refuse_if<IoError>(data == nullptr, about.where, "{} cannot be opened", about.name);
         if (OGRLayer* const layer = data->GetLayerByName(styles_layer)) {
             for (auto const& feature : *layer) {
                 std::string const text = feature->GetFieldAsString("styleQML");
@@ -437,7 +436,7 @@ std::map<std::string, QgisStyle> styles_of(std::string const& path) {
             }
         }
     }
-    driver.check(what);
+    driver.check(about.where, about.name);
     return styles;
 }
 

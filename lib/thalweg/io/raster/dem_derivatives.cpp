@@ -25,10 +25,9 @@
 namespace thalweg::io {
 
 Raster<std::uint8_t> hillshade(Raster<float> const& dem, double z_factor, Light light) {
-    std::string const what = "io.hillshade";
-    require_in(what, "z_factor", z_factor, Range::above(0.0).or_infinite());
+    require_in("io.hillshade", "z_factor", z_factor, Range::above(0.0).or_infinite());
     Driver const driver;
-    Dataset const source = dataset_of(dem, what);
+    Dataset const source = dataset_of(dem, {"io.hillshade", ""});
     CPLStringList arguments;
     for (std::string const& argument : {std::string("-of"), std::string("MEM"), std::string("-compute_edges"),
                                         std::string("-z"), fmt::format("{}", z_factor)}) {
@@ -46,8 +45,8 @@ Raster<std::uint8_t> hillshade(Raster<float> const& dem, double z_factor, Light 
     int const height = source->GetRasterYSize();
     if (shaded == nullptr || shaded->GetRasterBand(1)->RasterIO(GF_Read, 0, 0, width, height, shade.values().data(),
                                                                 width, height, GDT_Byte, 0, 0, nullptr) != CE_None) {
-        driver.check(what);
-        throw IoError(what + " failed");
+        driver.check("io.hillshade");
+        throw IoError("io.hillshade", "io.hillshade failed");
     }
     return shade;
 }
@@ -67,10 +66,9 @@ void require_few_levels(Raster<float> const& dem, double interval_m) {
             first = false;
         }
     }
-    refuse_if<BadParameter>(
-        (high - low) / interval_m > most_levels,
-        "io.contours: an interval of {} m in a relief of {} m gives more than {} levels: give a larger one", interval_m,
-        high - low, most_levels);
+    refuse_if<BadParameter>((high - low) / interval_m > most_levels, "io.contours",
+                            "an interval of {} m in a relief of {} m gives more than {} levels: give a larger one",
+                            interval_m, high - low, most_levels);
 }
 
 /// Simplifies contours, except for those that would then cross themselves or others.
@@ -118,10 +116,9 @@ bool is_dot(std::vector<Vec2> const& line, double size_m) {
 
 std::vector<ContourLine> contours(Raster<float> const& dem, double interval_m, Run const& run) {
     constexpr double tolerance_cells = 0.1;
-    std::string const what = "io.contours";
     require_few_levels(dem, interval_m);
     Driver const driver;
-    Dataset const source = dataset_of(dem, what);
+    Dataset const source = dataset_of(dem, {"io.contours", ""});
     if (std::ranges::all_of(dem.values(), [](float z) { return std::isnan(z); })) {
         return {}; // GDAL 3.9 rejects such a raster
     }
@@ -138,8 +135,8 @@ std::vector<ContourLine> contours(Raster<float> const& dem, double interval_m, R
         GDALContourGenerateEx(GDALRasterBand::ToHandle(source->GetRasterBand(1)), OGRLayer::ToHandle(layer),
                               options.List(), &GdalProgress::step, &gdal_progress);
     gdal_progress.settle();
-    driver.check(what);
-    refuse_if<IoError>(error != CE_None, "{} failed", what);
+    driver.check("io.contours");
+    refuse_if<IoError>(error != CE_None, "io.contours", "io.contours failed");
     std::vector<ContourLine> lines;
     for (auto const& feature : *layer) {
         OGRLineString const& drawn_line = *feature->GetGeometryRef()->toLineString();
@@ -152,9 +149,9 @@ std::vector<ContourLine> contours(Raster<float> const& dem, double interval_m, R
         lines.push_back(std::move(line));
     }
     lines = simplified(std::move(lines), tolerance_cells * dem.grid().cell_m, run);
-    driver.check(what); // a failed allocation also ends the loop
-    refuse_if<IoError>(static_cast<GIntBig>(lines.size()) != layer->GetFeatureCount(),
-                       "{}: contours are missing: free memory", what);
+    driver.check("io.contours"); // a failed allocation also ends the loop
+    refuse_if<IoError>(static_cast<GIntBig>(lines.size()) != layer->GetFeatureCount(), "io.contours",
+                       "contours are missing: free memory");
     std::erase_if(lines,
                   [&](ContourLine const& line) { return is_dot(line.line, tolerance_cells * dem.grid().cell_m); });
     return lines;

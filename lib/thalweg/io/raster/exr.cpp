@@ -72,12 +72,12 @@ std::string exr(Raster<float> const& heights, Run const& run) {
             file.writePixels(std::min(rows, height - row));
         }
     } catch (Iex::BaseExc const& fault) {
-        throw IoError(std::string("io.exr: ") + fault.what());
+        throw IoError("io.write_heightmap", fault.what());
     }
     return out.bytes();
 }
 
-Raster<float> heights_of_exr(std::string const& path, std::string const& what) {
+Raster<float> heights_of_exr(std::string const& path, About const& about) {
     try {
         Imf::InputFile file(path.c_str(), 0);
         Imf::ChannelList const& channels = file.header().channels();
@@ -86,16 +86,16 @@ Raster<float> heights_of_exr(std::string const& path, std::string const& what) {
             names.emplace_back(channel.name());
         }
         bool const has_heights = channels.findChannel(exr_channel) != nullptr;
-        refuse_if<BadInput>(!has_heights && names.size() != 1,
+        refuse_if<BadInput>(!has_heights && names.size() != 1, about.where,
                             "{} has channels {}, of which none is called Y: keep the one with the heights (oiiotool "
                             "FILE.exr --ch R -o HEIGHTS.exr)",
-                            what, fmt::join(names, ", "));
+                            about.name, fmt::join(names, ", "));
         auto const box = file.header().dataWindow();
         Grid grid;
         grid.width = std::int64_t{box.max.x} - box.min.x + 1;
         grid.height = std::int64_t{box.max.y} - box.min.y + 1;
-        require_size(grid, what);
-        require_memory(grid, what);
+        require_size(grid, about);
+        require_memory(grid, about);
         Raster<float> heights(grid);
         constexpr std::size_t sample = sizeof(float);
         std::size_t const row = sample * static_cast<std::size_t>(grid.width);
@@ -109,7 +109,7 @@ Raster<float> heights_of_exr(std::string const& path, std::string const& what) {
         file.readPixels(box.min.y, box.max.y);
         return heights;
     } catch (Iex::BaseExc const& fault) {
-        throw BadInput(what + " cannot be read as OpenEXR: " + fault.what());
+        throw BadInput(about.where, about.name + " cannot be read as OpenEXR: " + fault.what());
     }
 }
 

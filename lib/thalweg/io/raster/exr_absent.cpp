@@ -7,13 +7,16 @@
 namespace thalweg::io {
 
 std::string exr(Raster<float> const&, Run const&) {
-    throw BadParameter("io.exr: the format exr needs OpenEXR, and this thalweg was built without it; install "
+    throw BadParameter("io.write_heightmap",
+                       "the format exr needs OpenEXR, and this thalweg was built without it; install "
                        "libopenexr-dev and build again, or use r32, which has the same heights");
 }
 
-Raster<float> heights_of_exr(std::string const&, std::string const& what) {
-    throw BadParameter(what + " is an OpenEXR, and this thalweg was built without it; install libopenexr-dev and build "
-                              "again, or convert the file to TIFF (oiiotool FILE.exr -o FILE.tif)");
+Raster<float> heights_of_exr(std::string const&, About const& about) {
+    throw BadParameter(about.where,
+                       about.name +
+                           " is an OpenEXR, and this thalweg was built without it; install libopenexr-dev and build "
+                           "again, or convert the file to TIFF (oiiotool FILE.exr -o FILE.tif)");
 }
 
 } // namespace thalweg::io

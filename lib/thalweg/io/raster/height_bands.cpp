@@ -91,7 +91,7 @@ int number_in(std::string const& text) {
 }
 
 /// Chooses the variable where the data set of the file itself is not the one to read.
-void choose_variable(HeightBands& bands, std::string const& wanted, std::string const& what) {
+void choose_variable(HeightBands& bands, std::string const& wanted, About const& about) {
     bool const is_by_name = !wanted.empty() && number_in(wanted) == 0;
     std::vector<Variable> const variables = variables_in(*bands.file);
     auto const named = std::ranges::find_if(variables, [&](Variable const& variable) {
@@ -99,8 +99,8 @@ void choose_variable(HeightBands& bands, std::string const& wanted, std::string 
     });
     if (named != variables.end()) {
         bands.variable = open_part(bands.file, named->opens);
-        refuse_if<BadInput>(bands.variable == nullptr || bands.variable->GetRasterCount() < 1,
-                            "{}: its variable {} cannot be read", what, wanted);
+        refuse_if<BadInput>(bands.variable == nullptr || bands.variable->GetRasterCount() < 1, about.where,
+                            "{}: its variable {} cannot be read", about.name, wanted);
         return;
     }
     if (bands.file->GetRasterCount() > 0) {
@@ -108,8 +108,9 @@ void choose_variable(HeightBands& bands, std::string const& wanted, std::string 
     }
     std::vector<std::string> names;
     std::ranges::transform(variables, std::back_inserter(names), &Variable::name);
-    refuse_if<BadInput>(is_by_name, "{} has no variable '{}': it has {}", what, wanted, fmt::join(names, ", "));
-    bands.variable = variable_of_heights(bands.file, what);
+    refuse_if<BadInput>(is_by_name, about.where, "{} has no variable '{}': it has {}", about.name, wanted,
+                        fmt::join(names, ", "));
+    bands.variable = variable_of_heights(bands.file, about);
     if (variables.size() > 1) {
         std::string const opened = bands.variable->GetDescription();
         bands.choice = {.kind = "bands",
@@ -144,11 +145,11 @@ Candidates candidates_in(GDALDataset& data) {
 
 /// The band that a user named, by number or name.
 GDALRasterBand* wanted_band(HeightBands const& bands, std::string const& wanted, std::vector<std::string> all,
-                            std::string const& what) {
+                            About const& about) {
     GDALDataset& data = bands.data();
     if (int const number = number_in(wanted); number > 0) {
-        refuse_if<BadInput>(number > data.GetRasterCount(), "{} has no band {}: it has {}", what, number,
-                            data.GetRasterCount());
+        refuse_if<BadInput>(number > data.GetRasterCount(), about.where, "{} has no band {}: it has {}", about.name,
+                            number, data.GetRasterCount());
         return data.GetRasterBand(number);
     }
     for (int i = data.GetRasterCount(); i > 0; --i) {
@@ -159,17 +160,18 @@ GDALRasterBand* wanted_band(HeightBands const& bands, std::string const& wanted,
     for (Variable const& variable : variables_in(*bands.file)) {
         all.push_back(variable.name);
     }
-    throw BadInput(fmt::format("{} has no band or variable '{}': it has {}", what, wanted, fmt::join(all, ", ")));
+    throw BadInput(about.where,
+                   fmt::format("{} has no band or variable '{}': it has {}", about.name, wanted, fmt::join(all, ", ")));
 }
 
 /// The only band, or the only one whose name means heights.
-GDALRasterBand* clear_band(Candidates const& found, std::optional<Finding>& choice, std::string const& what) {
+GDALRasterBand* clear_band(Candidates const& found, std::optional<Finding>& choice, About const& about) {
     std::vector<GDALRasterBand*> const& some = found.plain.empty() ? found.colours : found.plain;
     std::vector<std::string> names;
     std::ranges::transform(some, std::back_inserter(names), [](GDALRasterBand* band) { return band_name(*band); });
     auto const at = some.size() == 1 ? std::optional<std::size_t>(0) : name_of_heights(names);
-    refuse_if<BadInput>(!at, "{} has {} bands ({}): a DEM has one; name it with --band N", what, some.size(),
-                        fmt::join(found.names, ", "));
+    refuse_if<BadInput>(!at, about.where, "{} has {} bands ({}): a DEM has one; name it with --band N", about.name,
+                        some.size(), fmt::join(found.names, ", "));
     if (some.size() > 1) {
         choice = {.kind = "bands",
                   .amount = static_cast<double>(some.size()),
@@ -181,7 +183,7 @@ GDALRasterBand* clear_band(Candidates const& found, std::optional<Finding>& choi
 
 } // namespace
 
-Dataset variable_of_heights(Dataset const& file, std::string const& what) {
+Dataset variable_of_heights(Dataset const& file, About const& about) {
     std::vector<Variable> const variables = variables_in(*file);
     std::vector<std::string> names;
     std::vector<std::string> parts;
@@ -189,47 +191,48 @@ Dataset variable_of_heights(Dataset const& file, std::string const& what) {
         names.push_back(variable.name);
         parts.push_back(last_part(variable.name));
     }
-    refuse_if<BadInput>(variables.empty(), "{} holds no cells", what);
+    refuse_if<BadInput>(variables.empty(), about.where, "{} holds no cells", about.name);
     auto const at = variables.size() == 1 ? std::optional<std::size_t>(0) : name_of_heights(parts);
-    refuse_if<BadInput>(!at,
+    refuse_if<BadInput>(!at, about.where,
                         "{} holds {} variables ({}): name the one of heights with --band NAME where the command has "
                         "that option, else as {}",
-                        what, variables.size(), fmt::join(names, ", "), variables.front().opens);
+                        about.name, variables.size(), fmt::join(names, ", "), variables.front().opens);
     Dataset variable = open_part(file, variables[*at].opens);
-    refuse_if<BadInput>(variable == nullptr || variable->GetRasterCount() < 1, "{}: its variable {} cannot be read",
-                        what, variables[*at].name);
+    refuse_if<BadInput>(variable == nullptr || variable->GetRasterCount() < 1, about.where,
+                        "{}: its variable {} cannot be read", about.name, variables[*at].name);
     return variable;
 }
 
-HeightBands choose_bands(Dataset file, ReadDemParams const& params, std::string const& what) {
+HeightBands choose_bands(Dataset file, ReadDemParams const& params, About const& about) {
     HeightBands bands;
     bands.file = std::move(file);
-    choose_variable(bands, params.band, what);
+    choose_variable(bands, params.band, about);
     Candidates const found = candidates_in(bands.data());
     bands.alpha = found.alpha;
     bool const is_wanted = number_in(params.band) > 0 || (!params.band.empty() && !bands.variable);
     bool const is_picture = params.values == CellValues::heights && !found.colours.empty();
     if (params.encoding != HeightEncoding::none) {
-        refuse_if<BadInput>(found.colours.size() != 3 || found.colours[0]->GetRasterDataType() != GDT_Byte,
+        refuse_if<BadInput>(found.colours.size() != 3 || found.colours[0]->GetRasterDataType() != GDT_Byte, about.where,
                             "{} has {} bands of colours: --encoding decodes a picture of red, green and blue bytes",
-                            what, found.colours.size());
+                            about.name, found.colours.size());
         std::ranges::copy(found.colours, bands.colours.begin());
         bands.heights = found.colours.front();
     } else if (is_wanted) {
-        bands.heights = wanted_band(bands, params.band, found.names, what);
+        bands.heights = wanted_band(bands, params.band, found.names, about);
     } else if (is_picture && found.plain.size() == 1 &&
                GDALDataTypeIsFloating(found.plain.front()->GetRasterDataType()) != 0) {
         bands.heights = found.plain.front(); // heights with a picture of them
     } else if (is_picture) {
-        throw BadInput(fmt::format("{} is a picture in colours, not a DEM: if the colours encode heights, decode them "
-                                   "with --encoding terrain-rgb or --encoding terrarium; --band N takes one band as it "
-                                   "is",
-                                   what));
+        throw BadInput(
+            about.where,
+            fmt::format("{} is a picture in colours, not a DEM: if the colours encode heights, decode them with "
+                        "--encoding terrain-rgb or --encoding terrarium; --band N takes one band as it is",
+                        about.name));
     } else {
-        bands.heights = clear_band(found, bands.choice, what);
+        bands.heights = clear_band(found, bands.choice, about);
     }
-    refuse_if<BadInput>(GDALDataTypeIsComplex(bands.heights->GetRasterDataType()) != 0,
-                        "{} holds complex numbers, not heights", what);
+    refuse_if<BadInput>(GDALDataTypeIsComplex(bands.heights->GetRasterDataType()) != 0, about.where,
+                        "{} holds complex numbers, not heights", about.name);
     return bands;
 }
 

@@ -41,12 +41,11 @@ template <class T> void write_raw(std::span<T const> numbers, std::string const&
 } // namespace
 
 HeightmapScale heightmap_scale(Raster<float> const& heights) {
-    constexpr char const* what = "io.write_heightmap";
-    refuse_if<BadInput>(heights.cells() < 1, "{}: there are no heights", what);
+    refuse_if<BadInput>(heights.cells() < 1, "io.write_heightmap", "there are no heights");
     for (std::int64_t i = 0; i < heights.cells(); ++i) {
         Cell const c = heights.grid().at(i);
-        refuse_if<BadInput>(!std::isfinite(heights[i]), "{}: the sample at column {}, row {} has no height", what,
-                            c.col, c.row);
+        refuse_if<BadInput>(!std::isfinite(heights[i]), "io.write_heightmap",
+                            "the sample at column {}, row {} has no height", c.col, c.row);
     }
     auto const [low, high] = std::ranges::minmax_element(heights.values());
     double const min_m = *low;
@@ -83,7 +82,7 @@ HeightmapScale write_heightmap(Raster<float> const& heights, std::string const& 
 }
 
 void write_grey_png(Raster<float> const& shares, std::string const& path, int bits, Run const& run) {
-    refuse_if<BadParameter>(bits != 8 && bits != 16, "io.write_grey_png: a sample has 8 or 16 bits, not {}", bits);
+    refuse_if<BadParameter>(bits != 8 && bits != 16, "io.write_grey_png", "a sample has 8 or 16 bits, not {}", bits);
     auto const in_numbers = [&]<class T>(std::vector<T> numbers) {
         double const most = sizeof(T) == 2 ? 65535.0 : 255.0;
         numbers.reserve(shares.values().size());

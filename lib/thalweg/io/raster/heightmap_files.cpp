@@ -211,7 +211,7 @@ auto heights_of_numbers(MapDescription const& map) {
 
 /// Finds the size of a file without a header.
 void take_size(MapDescription& map, std::uint64_t bytes, std::uint64_t sample, ReadDemParams const& params,
-               std::string const& what) {
+               About const& about) {
     if (params.raw_width > 0) {
         map.width = params.raw_width;
         map.height = params.raw_height;
@@ -219,60 +219,60 @@ void take_size(MapDescription& map, std::uint64_t bytes, std::uint64_t sample, R
     std::uint64_t const samples = bytes / sample;
     if (map.width == 0) {
         auto const side = static_cast<std::uint64_t>(std::llround(std::sqrt(static_cast<double>(samples))));
-        refuse_if<BadInput>(bytes % sample != 0 || side * side != samples || samples == 0,
+        refuse_if<BadInput>(bytes % sample != 0 || side * side != samples || samples == 0, about.where,
                             "{} has no header, and its {} bytes are no square of {}-bit samples: name their number "
                             "(--raw-size WIDTHxHEIGHT)",
-                            what, bytes, 8 * sample);
+                            about.name, bytes, 8 * sample);
         map.width = map.height = static_cast<std::int64_t>(side);
     }
     auto const wanted = static_cast<std::uint64_t>(map.width) * static_cast<std::uint64_t>(map.height);
-    refuse_if<BadInput>(wanted * sample != bytes,
-                        "{} holds {} bytes, but {} x {} samples of {} bits take {}: name their number (--raw-size "
-                        "WIDTHxHEIGHT){}",
-                        what, bytes, map.width, map.height, 8 * sample, wanted * sample,
-                        map.by.empty() || params.raw_width > 0 ? "" : ", or mend " + map.by);
+    refuse_if<BadInput>(
+        wanted * sample != bytes, about.where,
+        "{} holds {} bytes, but {} x {} samples of {} bits take {}: name their number (--raw-size WIDTHxHEIGHT){}",
+        about.name, bytes, map.width, map.height, 8 * sample, wanted * sample,
+        map.by.empty() || params.raw_width > 0 ? "" : ", or mend " + map.by);
 }
 
 std::vector<float> read_raw(std::string const& path, MapDescription& map, ReadDemParams const& params,
-                            std::string const& what) {
+                            About const& about) {
     constexpr std::int64_t largest = std::int64_t{1} << 31;
     std::string const bytes = read_text(path, largest);
     bool const is_r32 = lower_extension(path) == ".r32" ||
                         (!map.by.empty() && !map.heights_m); // a description without steps is one of metres
-    take_size(map, bytes.size(), is_r32 ? sizeof(float) : sizeof(std::uint16_t), params, what);
+    take_size(map, bytes.size(), is_r32 ? sizeof(float) : sizeof(std::uint16_t), params, about);
     return is_r32 ? raw_samples<float>(bytes, [](float z) { return z; })
                   : raw_samples<std::uint16_t>(bytes, heights_of_numbers(map));
 }
 
-std::vector<float> read_png16(Dataset const& data, MapDescription& map, std::string const& what) {
+std::vector<float> read_png16(Dataset const& data, MapDescription& map, About const& about) {
     refuse_if<BadInput>(data->GetRasterXSize() != map.width || data->GetRasterYSize() != map.height ||
                             data->GetRasterCount() != 1,
-                        "{} has {} x {} samples, and {} x {} by {}: mend or remove that file", what,
+                        about.where, "{} has {} x {} samples, and {} x {} by {}: mend or remove that file", about.name,
                         data->GetRasterXSize(), data->GetRasterYSize(), map.width, map.height, map.by);
     std::vector<float> out(static_cast<std::size_t>(map.width * map.height));
     auto const wide = static_cast<int>(map.width);
     auto const high = static_cast<int>(map.height);
     refuse_if<IoError>(data->GetRasterBand(1)->RasterIO(GF_Read, 0, 0, wide, high, out.data(), wide, high, GDT_Float32,
                                                         0, 0, nullptr) != CE_None,
-                       "{}: its samples cannot be read", what);
+                       about.where, "{}: its samples cannot be read", about.name);
     auto const height_of = heights_of_numbers(map);
     std::ranges::transform(out, out.begin(), height_of);
     return out;
 }
 
 std::vector<float> read_samples(Source const& source, MapDescription& map, ReadDemParams const& params,
-                                Dataset const& picture, std::string const& what) {
+                                Dataset const& picture, About const& about) {
     if (is_exr_file(source.path)) {
-        Raster<float> const heights = heights_of_exr(source.path, what);
+        Raster<float> const heights = heights_of_exr(source.path, about);
         map.width = heights.width();
         map.height = heights.height();
         return {heights.values().begin(), heights.values().end()};
     }
-    return picture ? read_png16(picture, map, what) : read_raw(source.path, map, params, what);
+    return picture ? read_png16(picture, map, about) : read_raw(source.path, map, params, about);
 }
 
-Dataset shown(std::vector<float>& samples, MapDescription const& map, std::string const& what) {
-    require_size({map.width, map.height, 1.0, 0.0, 0.0, ""}, what);
+Dataset shown(std::vector<float>& samples, MapDescription const& map, About const& about) {
+    require_size({map.width, map.height, 1.0, 0.0, 0.0, ""}, about);
     auto const wide = static_cast<int>(map.width);
     auto const high = static_cast<int>(map.height);
     if (map.from_south) {
@@ -285,7 +285,7 @@ Dataset shown(std::vector<float>& samples, MapDescription const& map, std::strin
     Dataset data(GetGDALDriverManager()->GetDriverByName("MEM")->Create("", wide, high, 1, GDT_Float32, nullptr));
     refuse_if<IoError>(!data || data->GetRasterBand(1)->RasterIO(GF_Write, 0, 0, wide, high, samples.data(), wide, high,
                                                                  GDT_Float32, 0, 0, nullptr) != CE_None,
-                       "{}: there is no memory for its samples", what);
+                       about.where, "{}: there is no memory for its samples", about.name);
     data->GetRasterBand(1)->SetUnitType("m");
     if (map.frame) {
         std::array<double, 6> frame = *map.frame;
@@ -355,13 +355,13 @@ bool is_picture_of_heights(Source const& source) {
 }
 
 OpenedHeightmap open_heightmap(Source const& source, ReadDemParams const& params, Dataset const& picture,
-                               std::string const& what) {
+                               About const& about) {
     require_allowed(source);
     MapDescription map = described(source.path).value_or(MapDescription{});
     if (params.raw_heights) {
         map.heights_m = params.raw_heights;
     }
-    std::vector<float> samples = read_samples(source, map, params, picture, what);
+    std::vector<float> samples = read_samples(source, map, params, picture, about);
     if (params.raw_cell_m) {
         double const cell_m = *params.raw_cell_m;
         map.frame = {0.0, cell_m, 0.0, static_cast<double>(map.height) * cell_m, 0.0, -cell_m};
@@ -369,7 +369,7 @@ OpenedHeightmap open_heightmap(Source const& source, ReadDemParams const& params
     }
     bool const has_numbers =
         !is_exr_file(source.path) && lower_extension(source.path) != ".r32" && (map.by.empty() || map.heights_m);
-    Dataset data = shown(samples, map, what);
+    Dataset data = shown(samples, map, about);
     return {std::move(data), finding_of(map, has_numbers, params)};
 }
 

@@ -69,18 +69,18 @@ struct OpenedHeights::Bands {
     std::int64_t transparent = 0;
 };
 
-OpenedHeights::OpenedHeights(Source const& source, ReadDemParams const& params, HeightsIn wanted, std::string what)
+OpenedHeights::OpenedHeights(Source const& source, ReadDemParams const& params, HeightsIn wanted, About about)
     : params_(params), wanted_(params.values == CellValues::heights ? wanted : HeightsIn::stored),
-      what_(std::move(what)), path_(source.path), name_(std::filesystem::path(source.path).filename().string()),
+      about_(std::move(about)), path_(source.path), name_(std::filesystem::path(source.path).filename().string()),
       bands_(std::make_unique<Bands>()) {
     if (is_heightmap(source)) {
-        Dataset const picture = is_picture_of_heights(source) ? open_file(source, GDAL_OF_RASTER, what_) : Dataset();
-        OpenedHeightmap opened = open_heightmap(source, params_, picture, what_);
+        Dataset const picture = is_picture_of_heights(source) ? open_file(source, GDAL_OF_RASTER, about_) : Dataset();
+        OpenedHeightmap opened = open_heightmap(source, params_, picture, about_);
         find(std::move(opened.finding));
-        bands_->of = choose_bands(std::move(opened.data), params_, what_);
+        bands_->of = choose_bands(std::move(opened.data), params_, about_);
         params_.nodata = params_.nodata.value_or(not_there); // 65535 is a height
     } else {
-        bands_->of = choose_bands(open_file(source, GDAL_OF_RASTER, what_), params_, what_);
+        bands_->of = choose_bands(open_file(source, GDAL_OF_RASTER, about_), params_, about_);
     }
     if (bands_->of.choice) {
         find(*bands_->of.choice);
@@ -103,10 +103,10 @@ void OpenedHeights::find(Finding finding) {
 void OpenedHeights::take_place() {
     GDALDataset& data = bands_->of.data();
     if (auto const* const own = data.GetSpatialRef(); own != nullptr && own->IsEmpty() == 0) {
-        refuse_if<BadInput>(own->IsGeocentric() != 0,
+        refuse_if<BadInput>(own->IsGeocentric() != 0, about_.where,
                             "{} has a geocentric CRS, {}: positions from the centre of the Earth are not those of a "
                             "map. Assign the CRS of its cells (gdal_edit.py -a_srs EPSG:n {})",
-                            what_, text_of(own->GetName()), path_);
+                            about_.name, text_of(own->GetName()), path_);
         reference_ = std::make_unique<OGRSpatialReference>(*own);
         reference_->StripVertical();
         reference_->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
@@ -176,10 +176,10 @@ void OpenedHeights::require_latitudes() const {
     double const degree = portable::pi / 180.0 / reference_->GetAngularUnits(nullptr);
     double const pole = 90.0 * degree - frame_[5]; // cells may be centred on it
     double const south = frame_[3] + height_ * frame_[5];
-    refuse_if<BadInput>(frame_[3] > pole || south < -pole,
+    refuse_if<BadInput>(frame_[3] > pole || south < -pole, about_.where,
                         "{} reaches from latitude {:.6g} to {:.6g} degrees, beyond a pole: correct its position "
                         "(gdal_edit.py -a_ullr) or its CRS (gdal_edit.py -a_srs)",
-                        what_, south / degree, frame_[3] / degree);
+                        about_.name, south / degree, frame_[3] / degree);
 }
 
 void OpenedHeights::take_axes() {
@@ -212,10 +212,11 @@ void OpenedHeights::take_axes() {
     }
     refuse_if<BadInput>(!reference_ && params_.values == CellValues::heights && frame_[2] == 0.0 && frame_[4] == 0.0 &&
                             are_degrees(frame_, width_, height_),
+                        about_.where,
                         "{} has no CRS, and its position, from ({:.9g}, {:.9g}) with cells of {:.6g}, is one of "
                         "longitudes and latitudes, by its size: name their CRS (gdal_edit.py -a_srs EPSG:4326 {}). If "
                         "they are metres, name a CRS in metres",
-                        what_, frame_[0], frame_[3], frame_[1], path_);
+                        about_.name, frame_[0], frame_[3], frame_[1], path_);
 }
 
 void OpenedHeights::take_unit() {
@@ -298,8 +299,8 @@ void OpenedHeights::read_stored(int file_row, std::span<double> stored, std::spa
                 ? from.RasterIO(GF_Read, file_row, 0, 1, width_, to, 1, width_, type, 0, 0, nullptr) == CE_None
                 : from.RasterIO(GF_Read, 0, file_row, width_, 1, to, width_, 1, type, 0, 0, nullptr) == CE_None;
         if (!done) {
-            bands_->driver.check(what_);
-            throw IoError(fmt::format("{}: row {} cannot be read", what_, file_row));
+            bands_->driver.check(about_.where, about_.name);
+            throw IoError(about_.where, fmt::format("{}: row {} cannot be read", about_.name, file_row));
         }
     };
     read_row(*bands_->of.heights, stored.data(), GDT_Float64);
@@ -352,8 +353,8 @@ void OpenedHeights::read(std::function<void(int, std::span<float const>)> const&
             counts.above += known && height > 0.0 ? 1 : 0;
             counts.below += known && height < 0.0 ? 1 : 0;
             if (known && !(std::fabs(height) <= implausible_height)) {
-                throw BadInput(
-                    fmt::format("{}: {}", what_, implausible_words(static_cast<std::int64_t>(col), row, raw)));
+                throw BadInput(about_.where, fmt::format("{}: {}", about_.name,
+                                                         implausible_words(static_cast<std::int64_t>(col), row, raw)));
             }
             raw = known ? raw : not_there;
             heights[from_east_ ? heights.size() - 1 - col : col] =
@@ -363,9 +364,9 @@ void OpenedHeights::read(std::function<void(int, std::span<float const>)> const&
         undeclared.add_row(stored);
         take(row, heights);
     }
-    bands_->driver.check(what_);
-    refuse_if<BadInput>(counts.known == 0, "{} holds no heights, only no-data", what_);
-    auto const doubt = undeclared.require_none(what_, path_);
+    bands_->driver.check(about_.where, about_.name);
+    refuse_if<BadInput>(counts.known == 0, about_.where, "{} holds no heights, only no-data", about_.name);
+    auto const doubt = undeclared.require_none(about_, path_);
     find_counts(counts);
     if (doubt) {
         find(*doubt);

@@ -16,15 +16,15 @@ namespace {
 template <class T>
 void write_numbers(std::vector<T>& numbers, int bands, Grid const& grid, int level, std::string const& path,
                    Run const& run) {
-    std::string const what = "io.write_png: " + path;
+    About const about{"io.write_png", path};
     constexpr GDALDataType type = sizeof(T) == 2 ? GDT_UInt16 : GDT_Byte;
-    require_size(grid, what);
+    require_size(grid, about);
     Driver const driver;
     MemoryFile const file;
     auto const require = [&](bool done) {
         if (!done) {
-            driver.check(what);
-            throw IoError(what + " could not be written");
+            driver.check(about.where, about.name);
+            throw IoError(about.where, about.name + " could not be written");
         }
     };
     auto const width = static_cast<int>(grid.width);
@@ -43,7 +43,7 @@ void write_numbers(std::vector<T>& numbers, int bands, Grid const& grid, int lev
     require(target != nullptr);
     target.reset();
     source.reset();
-    driver.check(what);
+    driver.check(about.where, about.name);
     write_text(path, file.bytes());
 }
 

@@ -30,7 +30,7 @@ namespace thalweg::io {
 namespace {
 
 [[noreturn]] void refuse_polygons(std::string const& text) {
-    throw BadInput("io.read_polygons: " + text);
+    throw BadInput("io.read_polygons", text);
 }
 
 bool is_polygonal(OGRwkbGeometryType type) {
@@ -193,10 +193,10 @@ void reproject(std::vector<Polygon>& polygons, OGRSpatialReference const& from, 
 Polygons read_with(Source const& source, std::string const& crs, ValueField const& field, Run const& run) {
     auto const name = std::filesystem::path(source.path).filename().string();
     Driver const driver;
-    Dataset const data = open_file(source, GDAL_OF_VECTOR, "io.read_polygons: " + source.path);
+    Dataset const data = open_file(source, GDAL_OF_VECTOR, {"io.read_polygons", source.path});
     OGRLayer& layer = choose_layer(*data, name);
     Polygons read{take(layer, name, field, run), crs, name};
-    driver.check("io.read_polygons: " + source.path);
+    driver.check("io.read_polygons", source.path);
     if (read.polygons.empty()) {
         refuse_polygons(fmt::format("layer {} of {} is empty", layer.GetName(), name));
     }
@@ -204,8 +204,8 @@ Polygons read_with(Source const& source, std::string const& crs, ValueField cons
     from.StripVertical();
     from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     std::string const own_crs = from.IsEmpty() != 0 ? "" : name_of(from);
-    std::string const whose = fmt::format("io.read_polygons: layer {} of {}", layer.GetName(), name);
-    if (!same_crs(own_crs, crs, whose, "the grid")) {
+    About const about{"io.read_polygons", fmt::format("layer {} of {}", layer.GetName(), name)};
+    if (!is_same_crs(own_crs, crs, about, "the grid")) {
         reproject(read.polygons, from, crs, name, driver);
     }
     return read;
@@ -298,12 +298,13 @@ void take_parts(OGRGeometry const& shape, std::int64_t feature, std::vector<Poly
 
 constexpr std::int32_t none = -1;
 
-void require_numbers(Raster<std::int32_t> const& numbers, std::int64_t count, std::string const& what) {
+void require_numbers(Raster<std::int32_t> const& numbers, std::int64_t count, About const& about) {
     auto const values = numbers.values();
     auto const beyond = std::find_if(values.begin(), values.end(), [&](std::int32_t n) { return n >= count; });
     if (beyond != values.end()) {
         Cell const c = numbers.grid().at(beyond - values.begin());
-        throw BadInput(fmt::format("{}: {} at column {}, row {} is not one of {}", what, *beyond, c.col, c.row, count));
+        throw BadInput(about.where, fmt::format("{}{} at column {}, row {} is not one of {}", about.beginning(),
+                                                *beyond, c.col, c.row, count));
     }
 }
 
@@ -323,7 +324,7 @@ Polygon taken(OGRPolygon const& drawn, std::int64_t number) {
 template <class NumberOf>
 std::vector<std::vector<Polygon>> outlines_of(Raster<std::int32_t> const& cells, std::int64_t count,
                                               NumberOf const& number_of, Run const& run) {
-    std::string const what = "io.polygonise";
+    constexpr char const* where = "io.polygonise";
     Driver const driver;
     RowPart<std::int32_t> const part = [&](std::int64_t row, std::int64_t col, std::span<std::int32_t> to) {
         auto const from = cells.row(row).subspan(static_cast<std::size_t>(col), to.size());
@@ -339,14 +340,14 @@ std::vector<std::vector<Polygon>> outlines_of(Raster<std::int32_t> const& cells,
     CPLErr const error = GDALPolygonize(GDALRasterBand::ToHandle(&band), GDALRasterBand::ToHandle(band.GetMaskBand()),
                                         OGRLayer::ToHandle(layer), 0, nullptr, &GdalProgress::step, &gdal_progress);
     gdal_progress.settle();
-    driver.check(what);
-    refuse_if<IoError>(error != CE_None, "{} failed", what);
+    driver.check(where);
+    refuse_if<IoError>(error != CE_None, where, "io.polygonise failed");
     std::vector<std::vector<Polygon>> polygons(count);
     for (auto const& feature : *layer) {
         auto const number = feature->GetFieldAsInteger64(0);
         polygons[number].push_back(taken(*feature->GetGeometryRef()->toPolygon(), number));
     }
-    driver.check(what); // a failed allocation also ends the loop
+    driver.check(where); // a failed allocation also ends the loop
     return polygons;
 }
 
@@ -359,7 +360,7 @@ struct Basin {
     std::int64_t cells = 0;
 };
 
-void require_counted(CatchmentTables const& tables, std::string const& what) {
+void require_counted(CatchmentTables const& tables, About const& about) {
     std::vector<std::int64_t> counted(tables.rows.size(), 0);
     for (std::int32_t const number : tables.number.values()) {
         if (number >= 0 && number < std::ssize(counted)) {
@@ -368,7 +369,8 @@ void require_counted(CatchmentTables const& tables, std::string const& what) {
     }
     for (std::size_t i = 0; i < counted.size(); ++i) {
         if (counted[i] != tables.rows[i].cells) {
-            throw BadInput(fmt::format("{}: the catchment of arc {} has {} cells, its row says {}", what,
+            throw BadInput(about.where,
+                           fmt::format("{}: the catchment of arc {} has {} cells, its row says {}", about.name,
                                        tables.rows[i].arc_id, counted[i], tables.rows[i].cells));
         }
     }
@@ -420,14 +422,14 @@ void add_columns(Table& table, std::vector<Column> const& columns,
 
 bool holds_polygons(Source const& source) {
     Driver const driver;
-    Dataset const data = open_file(source, GDAL_OF_RASTER | GDAL_OF_VECTOR, "io.holds_polygons: " + source.path);
+    Dataset const data = open_file(source, GDAL_OF_RASTER | GDAL_OF_VECTOR, {"io.holds_polygons", source.path});
     return data->GetRasterCount() == 0 && !polygon_layers(*data).empty();
 }
 
 std::string crs_for_polygons(Source const& source) {
     auto const name = std::filesystem::path(source.path).filename().string();
     Driver const driver;
-    Dataset const data = open_file(source, GDAL_OF_VECTOR, "io.read_polygons: " + source.path);
+    Dataset const data = open_file(source, GDAL_OF_VECTOR, {"io.read_polygons", source.path});
     OGRLayer& layer = choose_layer(*data, name);
     OGREnvelope box;
     if (is_missing(layer.GetSpatialRef()) || layer.GetExtent(&box) != OGRERR_NONE) {
@@ -440,7 +442,7 @@ std::string crs_for_polygons(Source const& source) {
 PolygonsCrs crs_of_polygons(Source const& source) {
     auto const name = std::filesystem::path(source.path).filename().string();
     Driver const driver;
-    Dataset const data = open_file(source, GDAL_OF_VECTOR, "io.read_polygons: " + source.path);
+    Dataset const data = open_file(source, GDAL_OF_VECTOR, {"io.read_polygons", source.path});
     OGRSpatialReference own = crs_of_layer(choose_layer(*data, name).GetSpatialRef(), "");
     own.StripVertical();
     return own.IsEmpty() != 0 ? PolygonsCrs() : PolygonsCrs{name_of(own), is_projected_in_metres(own)};
@@ -510,9 +512,9 @@ std::vector<Polygon> united(std::vector<Polygon> polygons, double gap_m) {
 }
 
 std::vector<std::vector<Polygon>> polygonise(Raster<std::int32_t> const& numbers, std::int64_t count, Run const& run) {
-    std::string const what = "io.polygonise";
-    require_numbers(numbers, count, what);
-    require_size(numbers.grid(), what);
+    About const about{"io.polygonise", ""};
+    require_numbers(numbers, count, about);
+    require_size(numbers.grid(), about);
     return outlines_of(
         numbers, count, [](std::int32_t n) { return std::max(n, none); }, run);
 }
@@ -526,7 +528,7 @@ Raster<std::int32_t> basins_by_cell(CatchmentTables const& tables) {
 CatchmentCount write_catchments(CatchmentTables const& tables, std::string const& path, Run const& run) {
     Grid const& grid = tables.number.grid();
     double const cell_m2 = grid.cell_m * grid.cell_m;
-    require_counted(tables, "io.write_catchments: " + path);
+    require_counted(tables, {"io.write_catchments", path});
 
     auto const outlines = polygonise(tables.number, static_cast<std::int64_t>(tables.rows.size()), run);
     std::vector<std::size_t> drawn; // rows with cells

@@ -27,10 +27,10 @@ void set_frame(GDALDataset& dataset, Grid const& grid) {
     }
 }
 
-void require_size(Grid const& grid, std::string const& what) {
+void require_size(Grid const& grid, About const& about) {
     constexpr std::int64_t most = std::numeric_limits<int>::max();
-    refuse_if<BadInput>(grid.width < 1 || grid.height < 1 || grid.width > most || grid.height > most,
-                        "{}: a raster of {} x {} cells", what, grid.width, grid.height);
+    refuse_if<BadInput>(grid.width < 1 || grid.height < 1 || grid.width > most || grid.height > most, about.where,
+                        "{}a raster of {} x {} cells", about.beginning(), grid.width, grid.height);
 }
 
 namespace {
@@ -51,12 +51,13 @@ Dataset dataset_of(Grid const& grid, std::int32_t no_data, RowPart<std::int32_t>
     return framed(grid, no_data, std::move(part));
 }
 
-Dataset dataset_of(Raster<float> const& dem, std::string const& what) {
-    require_size(dem.grid(), what);
+Dataset dataset_of(Raster<float> const& dem, About const& about) {
+    require_size(dem.grid(), about);
     auto const bad = std::ranges::find_if(dem.values(), [](float z) { return std::isinf(z) || z == nodata_height; });
     if (bad != dem.values().end()) {
         Cell const c = dem.grid().at(bad - dem.values().begin());
-        throw BadInput(fmt::format("{}: the height at column {}, row {} is {}", what, c.col, c.row, *bad));
+        throw BadInput(about.where,
+                       fmt::format("{}the height at column {}, row {} is {}", about.beginning(), c.col, c.row, *bad));
     }
     return dataset_of(dem.grid(), nodata_height, [&dem](std::int64_t row, std::int64_t col, std::span<float> part) {
         auto const from = dem.row(row).subspan(static_cast<std::size_t>(col), part.size());

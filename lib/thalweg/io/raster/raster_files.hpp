@@ -97,7 +97,7 @@ Mask read_mask(Source const& source, Grid const& grid, Run const& run = {});
 /// Warps a DEM to the coordinates and the cell size of a grid.
 /// \param dem [m] by cell; NaN: no data
 /// \param grid the target's lattice of cells
-/// \param what "io.warp_to_grid: source.tif", for messages
+/// \param what "source.tif", for messages
 /// \return unchanged if CRS and cell size are the grid's; else warped (bilinear, means if cells become larger) to the
 /// lattice that extends the grid's cells; NaN: no data
 /// \throws BadInput naming both when only one of them has a CRS; when the DEM cannot be warped or becomes larger than

@@ -35,7 +35,7 @@ namespace thalweg::io {
 namespace {
 
 /// The projection in which a raster on the globe is drawn.
-OGRSpatialReference projection_for(OpenedHeights const& source, std::string const& what) {
+OGRSpatialReference projection_for(OpenedHeights const& source, About const& about) {
     OGRSpatialReference const& from = *source.reference();
     std::unique_ptr<OGRSpatialReference> const globe(from.CloneGeogCS());
     std::unique_ptr<OGRCoordinateTransformation> const turn(
@@ -43,14 +43,16 @@ OGRSpatialReference projection_for(OpenedHeights const& source, std::string cons
                  OGRCreateCoordinateTransformation(&from, globe.get()))
               : nullptr);
     if (!turn) {
-        throw BadInput(what + ": its CRS leads to no longitude and latitude; assign another (gdal_edit.py -a_srs)");
+        throw BadInput(about.where,
+                       about.name +
+                           ": its CRS leads to no longitude and latitude; assign another (gdal_edit.py -a_srs)");
     }
     CellFrame const& frame = source.frame();
     auto const place = [&](double col, double row) {
         double x = frame[0] + col * frame[1] + row * frame[2];
         double y = frame[3] + col * frame[4] + row * frame[5];
-        refuse_if<BadInput>(turn->Transform(1, &x, &y) == 0 || !std::isfinite(x) || !std::isfinite(y),
-                            "{} lies where its CRS has no longitude and latitude; check its position", what);
+        refuse_if<BadInput>(turn->Transform(1, &x, &y) == 0 || !std::isfinite(x) || !std::isfinite(y), about.where,
+                            "{} lies where its CRS has no longitude and latitude; check its position", about.name);
         return Vec2{x, y};
     };
     double const width = source.width();
@@ -65,7 +67,7 @@ OGRSpatialReference projection_for(OpenedHeights const& source, std::string cons
 }
 
 /// The same for a raster in metres with wrong lengths; nothing: no other projection is better.
-std::optional<OGRSpatialReference> less_distorted_for(OpenedHeights const& source, std::string const& what) {
+std::optional<OGRSpatialReference> less_distorted_for(OpenedHeights const& source, About const& about) {
     OGRSpatialReference const& own = *source.reference();
     CellFrame const& frame = source.frame();
     double const wide = source.width();
@@ -80,7 +82,7 @@ std::optional<OGRSpatialReference> less_distorted_for(OpenedHeights const& sourc
         return std::nullopt;
     }
     try {
-        OGRSpatialReference other = projection_for(source, what);
+        OGRSpatialReference other = projection_for(source, about);
         return is_better(other, own, box) ? std::optional(std::move(other)) : std::nullopt;
     } catch (BadInput const&) { // a corner is off the globe, as on world maps
         return std::nullopt;
@@ -106,7 +108,7 @@ struct Squares {
     double cell = 0.0;   ///< so that no side exceeds the limit
 };
 
-Squares squares_for(GDALDataset& source, Target target, std::int64_t most_side, std::string const& what,
+Squares squares_for(GDALDataset& source, Target target, std::int64_t most_side, About const& about,
                     Driver const& driver) {
     CPLStringList options;
     if (target != nullptr) {
@@ -121,7 +123,7 @@ Squares squares_for(GDALDataset& source, Target target, std::int64_t most_side, 
     int rows = 0;
     if (!transformer || GDALSuggestedWarpOutput(GDALDataset::ToHandle(&source), GDALGenImgProjTransform,
                                                 transformer.get(), frame.data(), &columns, &rows) != CE_None) {
-        throw BadInput(fmt::format("{} cannot be warped to be drawn: {}", what, driver.take()));
+        throw BadInput(about.where, fmt::format("{} cannot be warped to be drawn: {}", about.name, driver.take()));
     }
     squares.wide = frame[1] * columns;
     squares.high = -frame[5] * rows;
@@ -153,27 +155,28 @@ CPLStringList warp_arguments(Squares const& squares, Target target) {
 /// Warps to north-up squares, in another projection if one is given.
 /// \param frame of the heights' cells
 Raster<float> warp(Raster<float> const& heights, CellFrame frame, OGRSpatialReference const* own, Target target,
-                   std::int64_t most_side, std::string const& what, Run const& run) {
+                   std::int64_t most_side, About const& about, Run const& run) {
     Driver const driver;
-    Dataset const source = dataset_of(heights, what);
+    Dataset const source = dataset_of(heights, about);
     source->SetGeoTransform(frame.data());
     source->SetSpatialRef(own);
-    Squares const squares = squares_for(*source, target, most_side, what, driver);
+    Squares const squares = squares_for(*source, target, most_side, about, driver);
     CPLStringList arguments = warp_arguments(squares, target);
     GdalProgress gdal_progress(run, "warp");
     std::unique_ptr<GDALWarpAppOptions, decltype(&GDALWarpAppOptionsFree)> const warp_options(
         GDALWarpAppOptionsNew(arguments.List(), nullptr), &GDALWarpAppOptionsFree);
     if (warp_options == nullptr) { // GDAL misread the arguments
         throw BadInput(
-            fmt::format("{} cannot be warped to be drawn: its cells of {} are too small for its position: {}", what,
-                        frame[1], driver.take()));
+            about.where,
+            fmt::format("{} cannot be warped to be drawn: its cells of {} are too small for its position: {}",
+                        about.name, frame[1], driver.take()));
     }
     GDALWarpAppOptionsSetProgress(warp_options.get(), &GdalProgress::step, &gdal_progress);
     GDALDatasetH handle = GDALDataset::ToHandle(source.get());
     Dataset const made(GDALDataset::FromHandle(GDALWarp("", nullptr, 1, &handle, warp_options.get(), nullptr)));
     gdal_progress.settle();
     if (made == nullptr) {
-        throw BadInput(fmt::format("{} cannot be warped to be drawn: {}", what, driver.take()));
+        throw BadInput(about.where, fmt::format("{} cannot be warped to be drawn: {}", about.name, driver.take()));
     }
     CellFrame place{};
     made->GetGeoTransform(place.data());
@@ -189,10 +192,10 @@ Raster<float> warp(Raster<float> const& heights, CellFrame frame, OGRSpatialRefe
     refuse_if<IoError>(made->GetRasterBand(1)->RasterIO(GF_Read, 0, 0, width, made->GetRasterYSize(),
                                                         warped.values().data(), width, made->GetRasterYSize(),
                                                         GDT_Float32, 0, 0, nullptr) != CE_None,
-                       "{}: the warped heights cannot be read", what);
-    driver.check(what);
-    refuse_if<BadInput>(std::ranges::all_of(warped.values(), [](float z) { return std::isnan(z); }),
-                        "{} holds no heights where it lies in {}", what, in_message(grid.crs));
+                       about.where, "{}: the warped heights cannot be read", about.name);
+    driver.check(about.where, about.name);
+    refuse_if<BadInput>(std::ranges::all_of(warped.values(), [](float z) { return std::isnan(z); }), about.where,
+                        "{} holds no heights where it lies in {}", about.name, in_message(grid.crs));
     return warped;
 }
 
@@ -286,10 +289,10 @@ Grid grid_of_means(OpenedHeights const& source, std::int64_t k) {
     return grid;
 }
 
-Raster<float> read_means(OpenedHeights& source, std::int64_t k, HeightSums* sums_of_own, std::string const& what,
+Raster<float> read_means(OpenedHeights& source, std::int64_t k, HeightSums* sums_of_own, About const& about,
                          Run const& run) {
     Grid const grid = grid_of_means(source, k);
-    require_memory(grid, what);
+    require_memory(grid, about);
     Raster<float> means(grid);
     std::vector<double> sums(static_cast<std::size_t>(grid.width), 0.0);
     std::vector<std::int64_t> counts(sums.size(), 0);
@@ -331,15 +334,15 @@ Raster<float> read_means(OpenedHeights& source, std::int64_t k, HeightSums* sums
 
 /// The projection to warp to; nothing: the raster's own is fine.
 std::optional<OGRSpatialReference> target_for(OpenedHeights const& source, ReadDrawableParams const& params,
-                                              std::string const& what) {
+                                              About const& about) {
     OGRSpatialReference const* const own = source.reference();
     if (own == nullptr) {
         return std::nullopt;
     }
     if (!is_projected_in_metres(*own)) {
-        return projection_for(source, what);
+        return projection_for(source, about);
     }
-    return params.metres == MetresOf::the_ground ? less_distorted_for(source, what) : std::nullopt;
+    return params.metres == MetresOf::the_ground ? less_distorted_for(source, about) : std::nullopt;
 }
 
 /// The longitudes that a raster in degrees covers; 0: it is in other units.
@@ -395,25 +398,25 @@ std::vector<Finding> conversions_in(OpenedHeights const& source, std::int64_t k,
 } // namespace
 
 Drawable read_drawable(Source const& file, ReadDrawableParams const& params, Run const& run) {
-    std::string const what = "io.read_drawable: " + file.path;
+    About const about{"io.read_drawable", file.path};
     std::string const name = std::filesystem::path(file.path).filename().string();
     std::int64_t const most_side = params.most_side;
     require_in("io.read_drawable", "most_side", most_side, Range::between(16, 1000000));
-    OpenedHeights source(file, params.reading, HeightsIn::metres, what);
+    OpenedHeights source(file, params.reading, HeightsIn::metres, about);
     source.take_metres();
     constexpr double most_cells = 1e11; // read row by row, in minutes
-    refuse_if<BadInput>(1.0 * source.width() * source.height() > most_cells,
+    refuse_if<BadInput>(1.0 * source.width() * source.height() > most_cells, about.where,
                         "{} has {} x {} cells, too many to draw; take a part of it (gdal_translate -projwin) or larger "
                         "cells (gdalwarp -novshift -tr)",
-                        what, source.width(), source.height());
-    std::optional<OGRSpatialReference> const target = target_for(source, params, what);
+                        about.name, source.width(), source.height());
+    std::optional<OGRSpatialReference> const target = target_for(source, params, about);
     bool const is_warped = target || !source.is_grid();
     auto const longest = static_cast<double>(std::max(source.width(), source.height()));
     double const times = longest / static_cast<double>(most_side);
     auto const k = std::max<std::int64_t>(1, std::llround(is_warped ? std::floor(times) : std::ceil(times)));
     HeightSums own_heights;
     bool const summarises = params.summarises && (is_warped || k > 1);
-    Raster<float> means = read_means(source, k, summarises ? &own_heights : nullptr, what, run);
+    Raster<float> means = read_means(source, k, summarises ? &own_heights : nullptr, about, run);
     Drawable out{{}, source.take_findings(), {}};
     if (summarises) {
         out.own = own_heights.value();
@@ -423,7 +426,7 @@ Drawable read_drawable(Source const& file, ReadDrawableParams const& params, Run
         for (std::size_t const i : {1U, 2U, 4U, 5U}) {
             reduced[i] *= static_cast<double>(k);
         }
-        out.dem = warp(means, reduced, source.reference(), target ? &*target : nullptr, most_side, what, run);
+        out.dem = warp(means, reduced, source.reference(), target ? &*target : nullptr, most_side, about, run);
     } else {
         out.dem = std::move(means);
     }

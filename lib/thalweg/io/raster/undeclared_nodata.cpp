@@ -140,12 +140,13 @@ void UndeclaredNodata::add_row(std::span<double const> stored) {
     }
 }
 
-void UndeclaredNodata::refuse_sentinels(std::string const& what, std::string const& path) const {
+void UndeclaredNodata::refuse_sentinels(About const& about, std::string const& path) const {
     for (Sentinel const& s : sentinels_) {
         if (s.count > 0 && !s.is_depth) {
-            throw BadInput(fmt::format("{} has {} cells of {:g}, the first at column {}, row {}: {}, and the file does "
+            throw BadInput(about.where,
+                           fmt::format("{} has {} cells of {:g}, the first at column {}, row {}: {}, and the file does "
                                        "not declare it as no-data. If it is, {}{}",
-                                       what, s.count, s.value, s.first[0], s.first[1],
+                                       about.name, s.count, s.value, s.first[0], s.first[1],
                                        is_height_ ? "no terrain has this height" : "this number stands for no-data",
                                        remedy(s.value, path),
                                        is_height_ ? "; --nodata nan takes it as a height" : "; else use another"));
@@ -153,18 +154,18 @@ void UndeclaredNodata::refuse_sentinels(std::string const& what, std::string con
     }
 }
 
-void UndeclaredNodata::refuse_block(Extreme const& e, double value, double range, std::string const& what,
+void UndeclaredNodata::refuse_block(Extreme const& e, double value, double range, About const& about,
                                     std::string const& path) const {
     if (is_declared_ || !e.block || !std::isfinite(e.gap()) || !(range > 0.0)) {
         return;
     }
     if (value == 0.0 ? e.gap() * metres_ > steepest_coast_m : e.gap() > range) {
         throw BadInput(
-            fmt::format("{} has a block of cells of {:.9g} around column {}, row {}, {:.6g} apart from "
-                        "every other value, and these differ by {:.6g} only: it looks like no-data that the "
-                        "file does not declare. If it is, {}; if it is terrain, use --nodata nan, or declare "
-                        "another value",
-                        what, value, (*e.block)[0], (*e.block)[1], e.gap(), range, remedy(value, path)));
+            about.where,
+            fmt::format("{} has a block of cells of {:.9g} around column {}, row {}, {:.6g} apart from every other "
+                        "value, and these differ by {:.6g} only: it looks like no-data that the file does not declare. "
+                        "If it is, {}; if it is terrain, use --nodata nan, or declare another value",
+                        about.name, value, (*e.block)[0], (*e.block)[1], e.gap(), range, remedy(value, path)));
     }
 }
 
@@ -182,8 +183,8 @@ std::optional<Finding> UndeclaredNodata::doubt_about(Extreme const& e, double ra
                                        e.cells, at[0], at[1], gap_m, range * metres_)};
 }
 
-std::optional<Finding> UndeclaredNodata::require_none(std::string const& what, std::string const& path) {
-    refuse_sentinels(what, path);
+std::optional<Finding> UndeclaredNodata::require_none(About const& about, std::string const& path) {
+    refuse_sentinels(about, path);
     if (!searches_ || !is_height_) {
         return std::nullopt;
     }
@@ -193,8 +194,8 @@ std::optional<Finding> UndeclaredNodata::require_none(std::string const& what, s
     note_single();
     double const range_above = -high_.value - low_.next;
     double const range_below = -high_.next - low_.value;
-    refuse_block(low_, low_.value, range_above, what, path);
-    refuse_block(high_, -high_.value, range_below, what, path);
+    refuse_block(low_, low_.value, range_above, about, path);
+    refuse_block(high_, -high_.value, range_below, about, path);
     if (auto const low = doubt_about(low_, range_above)) {
         return low;
     }

@@ -40,7 +40,7 @@ std::string wkt_of(std::string const& crs) {
 }
 
 /// The cells of a grid's lattice that cover a data set.
-Grid frame_for(GDALDataset& source, Grid const& grid, std::string const& wkt, std::string const& what,
+Grid frame_for(GDALDataset& source, Grid const& grid, std::string const& wkt, About const& about,
                Driver const& driver) {
     CPLStringList options;
     if (!wkt.empty()) {
@@ -56,7 +56,8 @@ Grid frame_for(GDALDataset& source, Grid const& grid, std::string const& wkt, st
     if (!transformer ||
         GDALSuggestedWarpOutput2(GDALDataset::ToHandle(&source), GDALGenImgProjTransform, transformer.get(),
                                  suggested.data(), &columns, &rows, box.data(), 0) != CE_None) {
-        throw BadInput(fmt::format("{} cannot be reprojected to {:.60}: {}", what, grid.crs, driver.take()));
+        throw BadInput(about.where,
+                       fmt::format("{} cannot be reprojected to {:.60}: {}", about.name, grid.crs, driver.take()));
     }
     double const west = std::floor((box[0] - grid.west) / grid.cell_m);
     double const east = std::ceil((box[2] - grid.west) / grid.cell_m);
@@ -65,10 +66,10 @@ Grid frame_for(GDALDataset& source, Grid const& grid, std::string const& wkt, st
     double const bytes = (east - west) * (south - north) * sizeof(float);
     double const there = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
     constexpr double most = std::numeric_limits<int>::max();
-    refuse_if<BadInput>(!(bytes <= 0.5 * there && east - west <= most && south - north <= most),
+    refuse_if<BadInput>(!(bytes <= 0.5 * there && east - west <= most && south - north <= most), about.where,
                         "{} becomes {:.0f} x {:.0f} cells of {}, more than memory holds: cut a piece out of it first "
                         "(gdal_translate -srcwin)",
-                        what, east - west, south - north, grid.cell_m);
+                        about.name, east - west, south - north, grid.cell_m);
     Grid frame = grid;
     frame.width = static_cast<std::int64_t>(std::max(east - west, 1.0));
     frame.height = static_cast<std::int64_t>(std::max(south - north, 1.0));
@@ -93,9 +94,9 @@ Raster<float> cut(Raster<float> const& dem, Grid const& grid) {
     return part;
 }
 
-Raster<float> warped(Raster<float> const& dem, Grid const& frame, std::string const& what, Run const& run) {
+Raster<float> warped(Raster<float> const& dem, Grid const& frame, About const& about, Run const& run) {
     Driver const driver;
-    Dataset const source = dataset_of(dem, what);
+    Dataset const source = dataset_of(dem, about);
     std::string const wkt = wkt_of(frame.crs);
     CPLStringList words;
     auto const digits = [](double v) { return fmt::format("{:.17g}", v); };
@@ -115,40 +116,48 @@ Raster<float> warped(Raster<float> const& dem, Grid const& frame, std::string co
     std::unique_ptr<GDALWarpAppOptions, decltype(&GDALWarpAppOptionsFree)> const options(
         GDALWarpAppOptionsNew(words.List(), nullptr), &GDALWarpAppOptionsFree);
     if (options == nullptr) {
-        throw BadInput(fmt::format("{} cannot be warped to cells of {}: {}", what, frame.cell_m, driver.take()));
+        throw BadInput(about.where,
+                       fmt::format("{} cannot be warped to cells of {}: {}", about.name, frame.cell_m, driver.take()));
     }
     GDALWarpAppOptionsSetProgress(options.get(), &GdalProgress::step, &gdal_progress);
     GDALDatasetH from = GDALDataset::ToHandle(source.get());
     Dataset const made(GDALDataset::FromHandle(GDALWarp("", nullptr, 1, &from, options.get(), nullptr)));
     gdal_progress.settle();
     if (made == nullptr) {
-        throw BadInput(fmt::format("{} cannot be reprojected to {:.60}: {}", what, frame.crs, driver.take()));
+        throw BadInput(about.where,
+                       fmt::format("{} cannot be reprojected to {:.60}: {}", about.name, frame.crs, driver.take()));
     }
     Raster<float> result(frame);
     int const width = made->GetRasterXSize();
     int const height = made->GetRasterYSize();
     refuse_if<IoError>(made->GetRasterBand(1)->RasterIO(GF_Read, 0, 0, width, height, result.values().data(), width,
                                                         height, GDT_Float32, 0, 0, nullptr) != CE_None,
-                       "{}: the warped heights cannot be read", what);
-    driver.check(what);
+                       about.where, "{}: the warped heights cannot be read", about.name);
+    driver.check(about.where, about.name);
     return result;
+}
+
+Grid frame_around(Raster<float> const& dem, Grid const& lattice, About const& about) {
+    Driver const driver;
+    return frame_for(*dataset_of(dem, about), lattice, wkt_of(lattice.crs), about, driver);
 }
 
 } // namespace
 
 Grid grid_around(Raster<float> const& dem, Grid const& lattice, std::string const& what) {
-    Driver const driver;
-    return frame_for(*dataset_of(dem, what), lattice, wkt_of(lattice.crs), what, driver);
+    return frame_around(dem, lattice, {"io.grid_around", what});
 }
 
 Raster<float> resample(Raster<float> const& dem, Grid const& grid, std::string const& what, Run const& run) {
-    bool const is_same = same_crs(dem.grid().crs, grid.crs, what, "the grid");
-    return is_same && same_lattice(dem.grid(), grid) ? cut(dem, grid) : warped(dem, grid, what, run);
+    About const about{"io.resample", what};
+    bool const is_same = is_same_crs(dem.grid().crs, grid.crs, about, "the grid");
+    return is_same && same_lattice(dem.grid(), grid) ? cut(dem, grid) : warped(dem, grid, about, run);
 }
 
 Raster<float> warp_to_grid(Raster<float> const& dem, Grid const& grid, std::string const& what, Run const& run) {
-    bool const is_same = same_crs(dem.grid().crs, grid.crs, what, "the grid");
-    return is_same && same_size(dem.grid(), grid) ? dem : warped(dem, grid_around(dem, grid, what), what, run);
+    About const about{"io.warp_to_grid", what};
+    bool const is_same = is_same_crs(dem.grid().crs, grid.crs, about, "the grid");
+    return is_same && same_size(dem.grid(), grid) ? dem : warped(dem, frame_around(dem, grid, about), about, run);
 }
 
 } // namespace thalweg::io

@@ -47,15 +47,15 @@ class WebTurn {
 public:
     WebTurn(std::string const& from, std::string const& to)
         : from_(read_reference(from)), to_(read_reference(to)), turn_(OGRCreateCoordinateTransformation(&from_, &to_)) {
-        refuse_if<BadInput>(turn_ == nullptr, "io.web_tiles: {} leads to no longitude and latitude", in_message(from));
+        refuse_if<BadInput>(turn_ == nullptr, "io.web_pyramid", "{} leads to no longitude and latitude",
+                            in_message(from));
     }
     /// digits: 1e6 rounds to 1e-6, so that the last bits of libm do not count.
     std::vector<Vec2> apply(std::span<Vec2 const> points, double digits) const {
         std::vector<Vec2> out = apply_anywhere(points, digits);
         for (std::size_t i = 0; i < out.size(); ++i) {
-            refuse_if<BadInput>(!std::isfinite(out[i].x) || !std::isfinite(out[i].y),
-                                "io.web_tiles: the position {}, {} cannot be projected for the web", points[i].x,
-                                points[i].y);
+            refuse_if<BadInput>(!std::isfinite(out[i].x) || !std::isfinite(out[i].y), "io.web_pyramid",
+                                "the position {}, {} cannot be projected for the web", points[i].x, points[i].y);
         }
         return out;
     }
@@ -125,22 +125,24 @@ struct WebPicture {
 };
 
 WebPicture decoded(std::string const& png) {
-    std::string const what = "io.write_web_tiles: the picture";
+    About const about{"io.write_web_tiles", "the picture"};
     Driver const driver;
     MemoryFile const file;
     VSILFILE* const to = VSIFOpenL(file.path().c_str(), "wb");
     bool const is_there = to != nullptr && VSIFWriteL(png.data(), 1, png.size(), to) == png.size();
-    refuse_if<IoError>((to != nullptr && VSIFCloseL(to) != 0) || !is_there, "{} does not fit in memory", what);
+    refuse_if<IoError>((to != nullptr && VSIFCloseL(to) != 0) || !is_there, about.where, "{} does not fit in memory",
+                       about.name);
     char const* const png_alone[] = {"PNG", nullptr};
     Dataset source(GDALDataset::Open(file.path().c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, png_alone));
-    refuse_if<BadInput>(source == nullptr || source->GetRasterCount() < 3, "{} is not a PNG in colours", what);
+    refuse_if<BadInput>(source == nullptr || source->GetRasterCount() < 3, about.where, "{} is not a PNG in colours",
+                        about.name);
     WebPicture out{source->GetRasterXSize(), source->GetRasterYSize(), {}};
     out.rgba.assign(std::size_t{4} * static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height), 255);
     CPLErr const error = source->RasterIO(GF_Read, 0, 0, out.width, out.height, out.rgba.data(), out.width, out.height,
                                           GDT_Byte, 3, nullptr, 4, GSpacing{4} * out.width, 1, nullptr);
     source.reset();
-    driver.check(what);
-    refuse_if<IoError>(error != CE_None, "{} cannot be read", what);
+    driver.check(about.where, about.name);
+    refuse_if<IoError>(error != CE_None, about.where, "{} cannot be read", about.name);
     return out;
 }
 
@@ -355,19 +357,18 @@ WebTile made_tile(WebSampler const& sampler, WebPyramid const& pyramid, std::int
 void require_ground(WebGround const& ground, WebPyramid const& pyramid) {
     Grid const& grid = pyramid.grid;
     for (Grid const* const other : {&ground.heights.grid(), &ground.shown.grid()}) {
-        refuse_if<BadInput>(other->width != grid.width || other->height != grid.height,
-                            "io.write_web_tiles: {} x {} cells for a pyramid of {} x {}", other->width, other->height,
-                            grid.width, grid.height);
+        refuse_if<BadInput>(other->width != grid.width || other->height != grid.height, "io.write_web_tiles",
+                            "{} x {} cells for a pyramid of {} x {}", other->width, other->height, grid.width,
+                            grid.height);
     }
     constexpr double highest_m = rgb_lowest_m + rgb_most / rgb_steps_a_metre;
     for (std::int64_t i = 0; i < ground.heights.cells(); ++i) {
         Cell const c = grid.at(i);
-        refuse_if<BadInput>(ground.heights[i] < rgb_lowest_m || ground.heights[i] > highest_m,
-                            "io.write_web_tiles: the cell at column {}, row {} is {:.6g} m high: Terrain-RGB has "
-                            "heights from {} to {} m",
+        refuse_if<BadInput>(ground.heights[i] < rgb_lowest_m || ground.heights[i] > highest_m, "io.write_web_tiles",
+                            "the cell at column {}, row {} is {:.6g} m high: Terrain-RGB has heights from {} to {} m",
                             c.col, c.row, ground.heights[i], rgb_lowest_m, highest_m);
-        refuse_if<BadInput>(!std::isfinite(ground.heights[i]),
-                            "io.write_web_tiles: the cell at column {}, row {} has no height", c.col, c.row);
+        refuse_if<BadInput>(!std::isfinite(ground.heights[i]), "io.write_web_tiles",
+                            "the cell at column {}, row {} has no height", c.col, c.row);
     }
 }
 
@@ -388,7 +389,7 @@ WebTileRange web_tiles_at(WebPyramid const& pyramid, std::int64_t zoom) {
 WebPyramid web_pyramid(Grid const& grid, WebPyramidParams const& params) {
     require_in("io.web_pyramid", "most_zoom", params.most_zoom, Range::between(0, 22));
     require_in("io.web_pyramid", "most_tiles", params.most_tiles, Range::at_least(1));
-    refuse_if<BadInput>(grid.width < 1 || grid.height < 1, "io.web_pyramid: a grid of {} x {} cells", grid.width,
+    refuse_if<BadInput>(grid.width < 1 || grid.height < 1, "io.web_pyramid", "a grid of {} x {} cells", grid.width,
                         grid.height);
     Driver const driver;
     WebPyramid out;
@@ -406,11 +407,11 @@ WebPyramid web_pyramid(Grid const& grid, WebPyramidParams const& params) {
         out.low = {std::min(out.low.x, p.x), std::min(out.low.y, p.y)};
         out.high = {std::max(out.high.x, p.x), std::max(out.high.y, p.y)};
     }
-    refuse_if<BadInput>(std::max(-out.low.y, out.high.y) > half_world_m,
-                        "io.web_pyramid: the DEM reaches beyond 85 degrees of latitude, where web maps end");
+    refuse_if<BadInput>(std::max(-out.low.y, out.high.y) > half_world_m, "io.web_pyramid",
+                        "the DEM reaches beyond 85 degrees of latitude, where web maps end");
     refuse_if<BadInput>(out.high.x - out.low.x > half_world_m || out.low.x < -half_world_m - 1.0 ||
                             out.high.x > half_world_m + 1.0,
-                        "io.web_pyramid: the DEM crosses the meridian of 180 degrees, where web maps end");
+                        "io.web_pyramid", "the DEM crosses the meridian of 180 degrees, where web maps end");
     std::array<Vec2, 2> const ends{out.low, out.high};
     std::vector<Vec2> const corners = WebTurn(web_mercator, "EPSG:4326").apply(ends, to_centimetres_in_degrees);
     driver.check("io.web_pyramid");

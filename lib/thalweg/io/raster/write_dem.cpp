@@ -24,30 +24,30 @@ namespace thalweg::io {
 
 namespace {
 
-void require_new(std::string const& path, std::string const& what) {
+void require_new(std::string const& path, About const& about) {
     require_geotiff_name(path);
     if (std::error_code ignored; std::filesystem::exists(path, ignored)) {
-        throw IoError(what + " exists already");
+        throw IoError(about.where, about.name + " exists already");
     }
 }
 
-void require(bool done, Driver const& driver, WrittenFile const& file, std::string const& what) {
+void require(bool done, Driver const& driver, WrittenFile const& file, About const& about) {
     file.check(); // GDAL knows no reason
     if (!done) {
-        driver.check(what);
-        throw IoError(what + " could not be written");
+        driver.check(about.where, about.name);
+        throw IoError(about.where, about.name + " could not be written");
     }
 }
 
 /// Writes a new tiled GeoTIFF of one band.
 template <class T>
-void write_tiled(Raster<T> const& raster, GDALDataType type, std::optional<double> no_data, char const* verb,
+void write_tiled(Raster<T> const& raster, GDALDataType type, std::optional<double> no_data, char const* where,
                  std::string const& path, Run const& run) {
-    std::string const what = verb + path;
-    require_new(path, what);
-    require_size(raster.grid(), what);
+    About const about{where, path};
+    require_new(path, about);
+    require_size(raster.grid(), about);
     Driver const driver;
-    WrittenFile file(path, what);
+    WrittenFile file(path, about);
     CPLStringList options;
     options.SetNameValue("COMPRESS", "DEFLATE");
     options.SetNameValue("TILED", "YES");
@@ -59,7 +59,7 @@ void write_tiled(Raster<T> const& raster, GDALDataType type, std::optional<doubl
     Dataset target(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
         file.name().c_str(), static_cast<int>(raster.width()), static_cast<int>(raster.height()), 1, type,
         options.List()));
-    require(target != nullptr, driver, file, what);
+    require(target != nullptr, driver, file, about);
     set_frame(*target, raster.grid());
     if (no_data) {
         target->GetRasterBand(1)->SetNoDataValue(*no_data);
@@ -82,11 +82,11 @@ void write_tiled(Raster<T> const& raster, GDALDataType type, std::optional<doubl
         }
         require(target->GetRasterBand(1)->RasterIO(GF_Write, 0, row, width, rows, strip.data(), width, rows, type, 0, 0,
                                                    nullptr) == CE_None,
-                driver, file, what);
+                driver, file, about);
     }
     target.reset();
     file.check();
-    driver.check(what);
+    driver.check(about.where, about.name);
     file.close();
 }
 
@@ -95,11 +95,10 @@ void write_tiled(Raster<T> const& raster, GDALDataType type, std::optional<doubl
 void require_geotiff_name(std::string const& path) {
     std::string ending = std::filesystem::path(path).extension().string();
     std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
-    refuse_if<BadParameter>(
-        !ending.empty() && ending != ".tif" && ending != ".tiff",
-        "io.write_dem: {}: a GeoTIFF is written, whose name ends in .tif, not {}; other formats come "
-        "from gdal_translate, heightmaps of 16 bits from thalweg export",
-        path, ending);
+    refuse_if<BadParameter>(!ending.empty() && ending != ".tif" && ending != ".tiff", "io.write_dem",
+                            "{}: a GeoTIFF is written, whose name ends in .tif, not {}; other formats come from "
+                            "gdal_translate, heightmaps of 16 bits from thalweg export",
+                            path, ending);
 }
 
 void write_dem(Raster<float> const& dem, std::string const& path, Run const& run) {
@@ -107,11 +106,11 @@ void write_dem(Raster<float> const& dem, std::string const& path, Run const& run
 }
 
 void write_dem(Raster<float> const& dem, std::string const& path, HeightUnit unit, Run const& run) {
-    std::string const what = "io.write_dem: " + path;
-    require_new(path, what);
+    About const about{"io.write_dem", path};
+    require_new(path, about);
     Driver const driver;
-    WrittenFile file(path, what);
-    Dataset source = dataset_of(dem, what);
+    WrittenFile file(path, about);
+    Dataset source = dataset_of(dem, about);
     source->GetRasterBand(1)->SetUnitType(name_of(unit));
     CPLStringList options;
     options.SetNameValue("COMPRESS", "DEFLATE");
@@ -124,20 +123,20 @@ void write_dem(Raster<float> const& dem, std::string const& path, HeightUnit uni
     Dataset target(GetGDALDriverManager()->GetDriverByName("COG")->CreateCopy(
         file.name().c_str(), source.get(), TRUE, options.List(), &GdalProgress::step, &gdal_progress));
     gdal_progress.settle();
-    require(target != nullptr, driver, file, what);
+    require(target != nullptr, driver, file, about);
     target.reset();
     source.reset();
     file.check();
-    driver.check(what);
+    driver.check(about.where, about.name);
     file.close();
 }
 
 void write_mask(Mask const& mask, std::string const& path, Run const& run) {
-    write_tiled(mask, GDT_Byte, {}, "io.write_mask: ", path, run);
+    write_tiled(mask, GDT_Byte, {}, "io.write_mask", path, run);
 }
 
 void write_codes(Raster<std::uint8_t> const& codes, std::string const& path, Run const& run) {
-    write_tiled(codes, GDT_Byte, no_code, "io.write_codes: ", path, run);
+    write_tiled(codes, GDT_Byte, no_code, "io.write_codes", path, run);
 }
 
 void write_field(Raster<double> const& field, std::string const& path, Run const& run) {
@@ -145,8 +144,8 @@ void write_field(Raster<double> const& field, std::string const& path, Run const
     for (std::int64_t i = 0; i < field.cells(); ++i) {
         if (std::isinf(field[i]) || field[i] == no_data) {
             Cell const c = field.grid().at(i);
-            throw BadInput(
-                fmt::format("io.write_field: {}: the number at column {}, row {} is {}", path, c.col, c.row, field[i]));
+            throw BadInput("io.write_field",
+                           fmt::format("{}: the number at column {}, row {} is {}", path, c.col, c.row, field[i]));
         }
     }
     write_tiled(field, GDT_Float64, no_data, "io.write_field: ", path, run);

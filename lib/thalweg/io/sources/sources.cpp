@@ -96,7 +96,7 @@ std::optional<FileBox> placed_box(OGRLayer& layer) {
 
 OGRLayer* layer_of(GDALDataset& data, std::string const& wanted, std::string const& path) {
     try {
-        return rivers_layers(data, wanted, "io.conversions_of: " + path).front();
+        return rivers_layers(data, wanted, {"io.conversions_of", path}).front();
     } catch (BadInput const&) { // it has points or polygons
         return data.GetLayerCount() > 0 ? data.GetLayer(0) : nullptr;
     }
@@ -165,7 +165,7 @@ std::vector<std::string> names_to_copy(GDALDataset& source, std::string const& w
     }
     bool const is_one = source.GetLayerByName(wanted.c_str()) != nullptr;
     std::vector<std::string> names =
-        is_one ? std::vector{wanted} : layer_names(rivers_layers(source, wanted, "io.plain_copy: " + path));
+        is_one ? std::vector{wanted} : layer_names(rivers_layers(source, wanted, {"io.plain_copy", path}));
     for (OGRLayer* const layer : layers_of(source)) { // rivers run on through them
         bool const is_there = std::ranges::find(names, layer->GetName()) != names.end();
         if (!is_there && may_hold_lakes(*layer)) {
@@ -205,7 +205,7 @@ FileContent content_of(Source const& source) {
     bool const is_folder =
         std::filesystem::is_directory(path, ignored) && !(is_geodatabase && !std::filesystem::exists(network, ignored));
     content.path = is_folder ? network.string() : path;
-    std::string const what = "io.content_of: " + content.path;
+    About const about{"io.content_of", content.path};
     if (is_text_of_points(content.path) && std::filesystem::exists(content.path, ignored) && !holds_lines(source)) {
         content.kind = FileContent::Kind::points;
         return content;
@@ -222,7 +222,7 @@ FileContent content_of(Source const& source) {
     if (is_heightmap({content.path, source.access})) {
         return content;
     }
-    Dataset const data = open_file({content.path, source.access}, GDAL_OF_RASTER | GDAL_OF_VECTOR, what);
+    Dataset const data = open_file({content.path, source.access}, GDAL_OF_RASTER | GDAL_OF_VECTOR, about);
     bool const has_variables = data->GetLayerCount() == 0 && data->GetMetadata("SUBDATASETS") != nullptr;
     if (data->GetRasterCount() > 0 || has_variables) {
         return content;
@@ -232,7 +232,7 @@ FileContent content_of(Source const& source) {
     bool has_lines = false;
     for (auto* const layer : data->GetLayers()) {
         auto const type = shape_of(*layer);
-        driver.check(fmt::format("{}, layer {}", what, layer->GetName()));
+        driver.check(about.where, fmt::format("{}, layer {}", about.name, layer->GetName()));
         bool const is_line = is_of_lines(type);
         has_lines = has_lines || is_line;
         has_points = has_points || type == wkbPoint || type == wkbMultiPoint;
@@ -240,7 +240,8 @@ FileContent content_of(Source const& source) {
             content.layer = "arcs";
         }
     }
-    refuse_if<BadInput>(!has_lines && !has_points, "{} holds neither heights, nor points, nor lines", what);
+    refuse_if<BadInput>(!has_lines && !has_points, about.where, "{} holds neither heights, nor points, nor lines",
+                        about.name);
     content.kind = has_lines ? FileContent::Kind::lines : FileContent::Kind::points;
     return content;
 }
@@ -251,7 +252,8 @@ bool has_layer(Source const& source, std::string const& layer) {
         return false;
     }
     Driver const driver;
-    return open_file(source, GDAL_OF_VECTOR, "io.has_layer")->GetLayerByName(layer.c_str()) != nullptr;
+    return open_file(source, GDAL_OF_VECTOR, {"io.has_layer", "io.has_layer"})->GetLayerByName(layer.c_str()) !=
+           nullptr;
 }
 
 std::vector<std::string> dataset_files(Source const& source) {
@@ -261,7 +263,7 @@ std::vector<std::string> dataset_files(Source const& source) {
     }
     Dataset const data = open_unchanged(source, GDAL_OF_RASTER | GDAL_OF_VECTOR);
     if (!data) {
-        throw BadInput("io.dataset_files: " + source.path + " is not a vector or raster source");
+        throw BadInput("io.dataset_files", source.path + " is not a vector or raster source");
     }
     if (inside_archive(source.path) != source.path) {
         return {source.path};
@@ -327,13 +329,13 @@ std::string plain_copy(std::string const& source, std::string const& layer, std:
     CPLConfigOptionSetter const date(date_option, fixed_date, false);
     unsigned const kinds = GDAL_OF_RASTER | GDAL_OF_VECTOR;
     std::string const file = file_of_part(source);
-    Dataset data = file.empty() ? open_unchanged(source, kinds) : open_file(source, kinds, "io.plain_copy: " + source);
+    Dataset data = file.empty() ? open_unchanged(source, kinds) : open_file(source, kinds, {"io.plain_copy", source});
     if (!data) {
-        refuse_folder(source, "io.plain_copy: " + source);
-        throw BadInput(fmt::format("io.plain_copy: {} cannot be read: {}", source, driver.take()));
+        refuse_folder(source, {"io.plain_copy", source});
+        throw BadInput("io.plain_copy", fmt::format("{} cannot be read: {}", source, driver.take()));
     }
     if (data->GetRasterCount() == 0 && data->GetLayerCount() == 0) {
-        data = variable_of_heights(data, "io.plain_copy: " + source);
+        data = variable_of_heights(data, {"io.plain_copy", source});
     }
     MemoryFile const raster;
     bool const is_raster = data->GetRasterCount() > 0 && data->GetLayerCount() == 0;
@@ -351,7 +353,7 @@ std::string plain_copy(std::string const& source, std::string const& layer, std:
         done = append_osm_lakes(source, path, gdal_progress);
     }
     if (std::string const words = driver.take(); !done || !words.empty()) {
-        throw BadInput(fmt::format("io.plain_copy: {} cannot be copied: {}", source, words));
+        throw BadInput("io.plain_copy", fmt::format("{} cannot be copied: {}", source, words));
     }
     if (is_raster) {
         write_text(path, raster.bytes());

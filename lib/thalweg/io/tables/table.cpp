@@ -35,19 +35,19 @@ using Kind = Column::Kind;
 using Shape = Table::Shape;
 
 struct FileFormat {
-    char const* word;   // as messages name it
-    char const* driver; // as GDAL does
+    char const* function; // that writes such files, for errors
+    char const* driver;   // as GDAL names it
     std::array<char const*, 3> options = {};
 };
 
 // In the order of LayerFormat.
 constexpr ByEnum<LayerFormat, FileFormat, 6> file_formats{
-    {{{"geopackage", "GPKG", {"GEOMETRY_NULLABLE=NO"}},
-      {"shapefile", "ESRI Shapefile", {"ENCODING=UTF-8", "DBF_DATE_LAST_UPDATE=2000-01-01"}},
-      {"flatgeobuf", "FlatGeobuf"},
-      {"geojson", "GeoJSON", {"RFC7946=YES", "COORDINATE_PRECISION=9", "SIGNIFICANT_FIGURES=17"}}, // 0.1 mm
-      {"geojson", "GeoJSON", {"SIGNIFICANT_FIGURES=17"}}, // any double, bit for bit
-      {"postgis", "PostgreSQL", {"GEOMETRY_NAME=geom", "FID=fid", "GEOMETRY_NULLABLE=NO"}}}}};
+    {{{"io.write_geopackage", "GPKG", {"GEOMETRY_NULLABLE=NO"}},
+      {"io.write_shapefiles", "ESRI Shapefile", {"ENCODING=UTF-8", "DBF_DATE_LAST_UPDATE=2000-01-01"}},
+      {"io.write_network", "FlatGeobuf"},
+      {"io.write_network", "GeoJSON", {"RFC7946=YES", "COORDINATE_PRECISION=9", "SIGNIFICANT_FIGURES=17"}}, // 0.1 mm
+      {"io.write_network", "GeoJSON", {"SIGNIFICANT_FIGURES=17"}}, // any double, bit for bit
+      {"io.write_postgis", "PostgreSQL", {"GEOMETRY_NAME=geom", "FID=fid", "GEOMETRY_NULLABLE=NO"}}}}};
 
 // In the order of Table::Shape.
 constexpr ByEnum<Shape, OGRwkbGeometryType, 8> shape_types{
@@ -124,19 +124,19 @@ void set_field(OGRFeature& feature, int index, Column const& column, std::size_t
     if (std::holds_alternative<std::monostate>(value)) {
         feature.SetFieldNull(index);
     } else if (auto const* whole = std::get_if<std::int64_t>(&value)) {
-        refuse_if<BadInput>(!(std::fabs(static_cast<double>(*whole)) < limit),
-                            "{}: {} {} has {} = {}, more than the field holds", target.what, table, row + 1,
+        refuse_if<BadInput>(!(std::fabs(static_cast<double>(*whole)) < limit), target.about.where,
+                            "{}: {} {} has {} = {}, more than the field holds", target.about.name, table, row + 1,
                             column.name, *whole);
         feature.SetField(index, static_cast<GIntBig>(*whole));
     } else if (auto const* real = std::get_if<double>(&value)) {
-        refuse_if<BadInput>(!std::isfinite(*real) || !(std::fabs(*real) < limit),
-                            "{}: {} {} has {} = {}, which cannot be written", target.what, table, row + 1, column.name,
-                            *real);
+        refuse_if<BadInput>(!std::isfinite(*real) || !(std::fabs(*real) < limit), target.about.where,
+                            "{}: {} {} has {} = {}, which cannot be written", target.about.name, table, row + 1,
+                            column.name, *real);
         feature.SetField(index, *real);
     } else {
         auto const& text = std::get<std::string>(value);
-        refuse_if<BadInput>(target.format == LayerFormat::shapefile && text.size() > text_limit,
-                            "{}: {} {} has {} of more than {} bytes", target.what, table, row + 1, column.name,
+        refuse_if<BadInput>(target.format == LayerFormat::shapefile && text.size() > text_limit, target.about.where,
+                            "{}: {} {} has {} of more than {} bytes", target.about.name, table, row + 1, column.name,
                             text_limit);
         feature.SetField(index, text.c_str());
     }
@@ -159,7 +159,7 @@ std::unique_ptr<OGRGeometry> drawn_polygons(std::vector<Polygon> const& parts) {
     return drawn;
 }
 
-std::unique_ptr<OGRGeometry> drawn_shape(Table const& table, std::size_t row, std::string const& what) {
+std::unique_ptr<OGRGeometry> drawn_shape(Table const& table, std::size_t row, About const& about) {
     if (table.shape == Shape::multi_polygon) {
         return drawn_polygons(table.parts_at(row));
     }
@@ -167,8 +167,8 @@ std::unique_ptr<OGRGeometry> drawn_shape(Table const& table, std::size_t row, st
     bool const needs_heights =
         table.shape != Shape::plan_line && table.shape != Shape::partly_line && table.shape != Shape::plan_point;
     for (Vec3 const& p : positions) {
-        refuse_if<BadInput>(needs_heights ? !is_finite(p) : !is_finite(in_plan(p)),
-                            "{}: {} {} has a vertex ({}, {}, {})", what, table.name, row + 1, p.x, p.y, p.z);
+        refuse_if<BadInput>(needs_heights ? !is_finite(p) : !is_finite(in_plan(p)), about.where,
+                            "{}: {} {} has a vertex ({}, {}, {})", about.name, table.name, row + 1, p.x, p.y, p.z);
     }
     if (table.shape == Shape::point && positions.empty()) {
         return std::make_unique<OGRPoint>(); // empty
@@ -201,15 +201,15 @@ std::unique_ptr<OGRGeometry> drawn_shape(Table const& table, std::size_t row, st
 }
 
 /// A CRS that could not be written, such as the .prj of a shapefile, leaves only a file without one, and no error.
-void require_crs(std::string const& path, OGRSpatialReference const& wanted, std::string const& what) {
+void require_crs(std::string const& path, OGRSpatialReference const& wanted, About const& about) {
     Dataset const written(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
-    refuse_if<IoError>(written == nullptr, "{} could not be read back", what);
+    refuse_if<IoError>(written == nullptr, about.where, "{} could not be read back", about.name);
     for (OGRLayer* const layer : written->GetLayers()) {
         OGRSpatialReference const* const found = layer->GetSpatialRef();
         bool const has_shape = layer->GetGeomType() != wkbNone;
         refuse_if<IoError>(has_shape && (found == nullptr || found->IsProjected() != wanted.IsProjected() ||
                                          found->IsGeographic() != wanted.IsGeographic()),
-                           "{}: the CRS could not be written", what);
+                           about.where, "{}: the CRS could not be written", about.name);
     }
 }
 
@@ -250,8 +250,8 @@ private:
 
 void LayerTarget::require(bool done) const {
     if (!done) {
-        driver.check(what);
-        throw IoError(what + " could not be written");
+        driver.check(about.where, about.name);
+        throw IoError(about.where, about.name + " could not be written");
     }
 }
 
@@ -263,7 +263,7 @@ void write_layer(LayerTarget const& target, Table const& table, Run const& run) 
             set_field(feature, i++, column, row, target, table.name);
         }
         if (table.shape != Shape::none) {
-            target.require(feature.SetGeometry(drawn_shape(table, row, target.what).get()) == OGRERR_NONE);
+            target.require(feature.SetGeometry(drawn_shape(table, row, target.about).get()) == OGRERR_NONE);
         }
         // A shapefile counts its features from 0 and would leave a gap; other formats than GeoPackage count themselves.
         auto const id = static_cast<GIntBig>(row);
@@ -306,24 +306,24 @@ Table styles_table(std::span<Table const> tables) {
 void write_file(std::span<Table const> tables, std::string const& crs, std::string const& path, LayerFormat format,
                 Run const& run) {
     FileFormat const& file_format = file_formats[format];
-    std::string const what = fmt::format("io.write_{}: {}", file_format.word, path);
+    About const about{file_format.function, path};
     std::error_code ignored;
-    refuse_if<IoError>(std::filesystem::exists(path, ignored), "{} exists already", what);
+    refuse_if<IoError>(std::filesystem::exists(path, ignored), about.where, "{} exists already", about.name);
     Driver const driver;
     CPLConfigOptionSetter const date(date_option, fixed_date, false);
     // What is written aside goes to the disk when it is whole, and not step by step.
     CPLConfigOptionSetter const unhurried("OGR_SQLITE_SYNCHRONOUS", "OFF", true);
     OGRSpatialReference reference = crs.empty() ? OGRSpatialReference() : read_reference(crs);
-    refuse_if<BadInput>(
-        format == LayerFormat::geojson && crs.empty(),
-        "{}: GeoJSON is in degrees (RFC 7946), and the network has no CRS to bring it there: assign one, "
-        "or write FlatGeobuf",
-        what);
-    refuse_if<BadInput>(
-        format == LayerFormat::geojson2008 && (crs.empty() || reference.GetAuthorityCode(nullptr) == nullptr),
-        "{}: GeoJSON of 2008 names a CRS by its EPSG code, which the network's has not: write GeoJSON in "
-        "degrees (--format geojson) or FlatGeobuf",
-        what);
+    refuse_if<BadInput>(format == LayerFormat::geojson && crs.empty(), about.where,
+                        "{}: GeoJSON is in degrees (RFC 7946), and the network has no CRS to bring it there: assign "
+                        "one, or write FlatGeobuf",
+                        about.name);
+    refuse_if<BadInput>(format == LayerFormat::geojson2008 &&
+                            (crs.empty() || reference.GetAuthorityCode(nullptr) == nullptr),
+                        about.where,
+                        "{}: GeoJSON of 2008 names a CRS by its EPSG code, which the network's has not: write GeoJSON "
+                        "in degrees (--format geojson) or FlatGeobuf",
+                        about.name);
     GDALDriver* const writer = GetGDALDriverManager()->GetDriverByName(file_format.driver);
     std::optional<Shapefile> shapefile;
     if (format == LayerFormat::shapefile) {
@@ -332,10 +332,10 @@ void write_file(std::span<Table const> tables, std::string const& crs, std::stri
     std::string const written = shapefile ? shapefile->path() : path;
     Dataset dataset(writer == nullptr ? nullptr : writer->Create(written.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
     if (dataset == nullptr) {
-        driver.check(what);
-        throw IoError(what + " could not be created");
+        driver.check(about.where, about.name);
+        throw IoError(about.where, about.name + " could not be created");
     }
-    LayerTarget const target{format, what, driver, *dataset, crs.empty() ? nullptr : &reference};
+    LayerTarget const target{format, about, driver, *dataset, crs.empty() ? nullptr : &reference};
     bool const transactions = format == LayerFormat::geopackage;
     target.require(!transactions || dataset->StartTransaction() == OGRERR_NONE);
     for (Table const& table : tables) {
@@ -348,11 +348,11 @@ void write_file(std::span<Table const> tables, std::string const& crs, std::stri
     }
     target.require(!transactions || dataset->CommitTransaction() == OGRERR_NONE);
     dataset.reset();
-    driver.check(what);
+    driver.check(about.where, about.name);
     if (!crs.empty()) {
         bool const in_degrees = format == LayerFormat::geojson;
-        require_crs(written, in_degrees ? read_reference("EPSG:4326") : reference, what);
-        driver.check(what);
+        require_crs(written, in_degrees ? read_reference("EPSG:4326") : reference, about);
+        driver.check(about.where, about.name);
     }
     if (shapefile) {
         shapefile->copy_to_disk();

@@ -58,7 +58,8 @@ Mask inside_of(recipe::Recipe const& recipe, Mask const& land, Valley const& val
         if (inside[i] == 0 && !std::isnan(valley.z[i])) {
             Cell const c = grid.at(i);
             Vec2 const at = grid.centre(c);
-            throw BadInput(fmt::format("surface.mask = \"{}\" leaves out cell ({}, {}) at ({:.1f}, {:.1f}), where a "
+            throw BadInput("make.make_terrain",
+                           fmt::format("surface.mask = \"{}\" leaves out cell ({}, {}) at ({:.1f}, {:.1f}), where a "
                                        "river runs",
                                        recipe.surface->mask, c.col, c.row, at.x, at.y));
         }

@@ -77,7 +77,8 @@ surface::DilatedDem dilated(recipe::SurfaceRecipe const& wanted, Between const& 
         return dilated_on(wanted, between, run);
     } catch (BadParameter const& fault) { // how many levels there are is known only now
         bool const is_increment = std::string_view(fault.where()) == "surface.increments";
-        throw BadParameter(fmt::format("{}{}", is_increment ? "[surface] increment: " : "", fault.what()));
+        throw BadParameter(fault.where(),
+                           fmt::format("{}{}", is_increment ? "[surface] increment: " : "", fault.what()));
     }
 }
 

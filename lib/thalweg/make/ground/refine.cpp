@@ -72,7 +72,7 @@ template <class Work> auto naming_keys(Work const& work) {
                 names += fmt::format("{}statistics.{}", names.empty() ? "" : ", ", key);
             }
         }
-        throw BadParameter(fmt::format("{}: {}", names.empty() ? "[statistics]" : names, words));
+        throw BadParameter(fault.where(), fmt::format("{}: {}", names.empty() ? "[statistics]" : names, words));
     }
 }
 
@@ -219,7 +219,8 @@ Raster<float> left_out(Raster<float> land, recipe::Recipe const& recipe, Raster<
     }
     Mask const inside = recipe::read_mask_of_land(recipe::file_in(recipe, recipe.surface->mask), land.grid(), run);
     if (std::all_of(inside.values().begin(), inside.values().end(), [](std::uint8_t v) { return v == 0; })) {
-        throw BadInput(fmt::format("surface.mask = \"{}\" leaves out every cell", recipe.surface->mask));
+        throw BadInput("make.make_terrain",
+                       fmt::format("surface.mask = \"{}\" leaves out every cell", recipe.surface->mask));
     }
     for (std::int64_t i = 0; i < land.cells(); ++i) {
         land[i] = inside[i] != 0 ? land[i] : std::numeric_limits<float>::quiet_NaN();

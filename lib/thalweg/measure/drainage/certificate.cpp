@@ -521,15 +521,14 @@ std::vector<Check> Certificate::checks() const {
 
 Certificate certify(Raster<float> const& dem, flow::FlowField const& drainage, flow::Reaches const& reaches,
                     Claims const& claims, Run const& run) {
-    require_same_grid(dem.grid(), drainage.direction.grid(), "measure.certify: the DEM and its drainage",
+    require_same_grid(dem.grid(), drainage.direction.grid(), "measure.certify", "the DEM and its drainage",
                       "drain this DEM");
-    refuse_if<BadInput>(!claims.ds_area_m2.empty() && claims.ds_area_m2.size() != reaches.size(),
-                        "measure.certify: {} areas for {} reaches", claims.ds_area_m2.size(), reaches.size());
+    refuse_if<BadInput>(!claims.ds_area_m2.empty() && claims.ds_area_m2.size() != reaches.size(), "measure.certify",
+                        "{} areas for {} reaches", claims.ds_area_m2.size(), reaches.size());
     for (Mask const* const mask : {&claims.still, &claims.drawn, &claims.honoured}) {
         if (mask->cells() > 0) {
-            require_same_grid(mask->grid(), dem.grid(),
-                              "measure.certify: what stands, is drawn or honoured and the DEM",
-                              "make both on one grid");
+            require_same_grid(mask->grid(), dem.grid(), "measure.certify",
+                              "what stands, is drawn or honoured and the DEM", "make both on one grid");
         }
     }
     return Certifier(dem, drainage, reaches, claims, run).certify();

@@ -17,13 +17,13 @@ namespace thalweg::measure {
 namespace {
 
 void require_all(std::size_t arcs, NetworkOrders const& orders, std::vector<double> const& areas) {
-    refuse_if<BadInput>(orders.strahler.size() != arcs || areas.size() != arcs,
-                        "measure.horton: {} orders and {} areas for {} arcs; order and measure the network again",
+    refuse_if<BadInput>(orders.strahler.size() != arcs || areas.size() != arcs, "measure.horton",
+                        "{} orders and {} areas for {} arcs; order and measure the network again",
                         orders.strahler.size(), areas.size(), arcs);
     auto const low = std::find_if(orders.strahler.begin(), orders.strahler.end(), [](int s) { return s < 1; });
     if (low != orders.strahler.end()) {
-        throw BadInput(fmt::format("measure.horton: arc {} has Strahler order {}; orders begin with 1",
-                                   low - orders.strahler.begin() + 1, *low));
+        throw BadInput("measure.horton", fmt::format("arc {} has Strahler order {}; orders begin with 1",
+                                                     low - orders.strahler.begin() + 1, *low));
     }
 }
 
@@ -163,8 +163,8 @@ std::optional<TokunagaLaw> tokunaga(std::vector<double> const& side_branches) {
 }
 
 JunctionAngles junction_angles(StreamNetwork const& network, double reach_m) {
-    refuse_if<BadParameter>(!(reach_m > 0.0) || std::isinf(reach_m),
-                            "measure.junction_angles: the reach is {} m; it must be above 0", reach_m);
+    refuse_if<BadParameter>(!(reach_m > 0.0) || std::isinf(reach_m), "measure.junction_angles",
+                            "the reach is {} m; it must be above 0", reach_m);
     JunctionAngles angles;
     angles.reach_m = reach_m;
     std::vector<double> degrees;
@@ -221,7 +221,7 @@ std::optional<PowerLaw> hack(StreamNetwork const& network, std::vector<double> c
                              std::vector<double> const& head_m, PowerLawParams const& params) {
     std::size_t const nodes = network.node_count();
     refuse_if<BadInput>(ds_area_m2.size() != network.arc_count() || (!head_m.empty() && head_m.size() != nodes),
-                        "measure.hack: {} areas for {} arcs and {} heads for {} nodes; measure the network again",
+                        "measure.hack", "{} areas for {} arcs and {} heads for {} nodes; measure the network again",
                         ds_area_m2.size(), network.arc_count(), head_m.size(), nodes);
     std::vector<double> longest(nodes, 0.0); // longest flow path upstream of a node
     std::vector<AtArea> ends(network.arc_count());
@@ -244,7 +244,7 @@ std::optional<PowerLaw> concavity(ElevatedNetwork const& network, flow::Contribu
     std::size_t const arcs = network.planform.arc_count();
     refuse_if<BadInput>(areas.us_area_m2.size() != arcs || areas.ds_area_m2.size() != arcs ||
                             network.arc_z.size() != arcs,
-                        "measure.concavity: {} and {} areas and heights of {} for {} arcs; measure the network again",
+                        "measure.concavity", "{} and {} areas and heights of {} for {} arcs; measure the network again",
                         areas.us_area_m2.size(), areas.ds_area_m2.size(), network.arc_z.size(), arcs);
     std::vector<AtArea> slopes;
     slopes.reserve(arcs);
@@ -258,8 +258,8 @@ std::optional<PowerLaw> concavity(ElevatedNetwork const& network, flow::Contribu
 NetworkLaws network_laws(ElevatedNetwork const& network, NetworkOrders const& orders,
                          flow::ContributingAreas const& areas, NetworkLawsParams const& params) {
     if (!(params.land_m2 > 0.0) || std::isinf(params.land_m2)) {
-        throw BadParameter(
-            fmt::format("measure.network_laws: the land has {} m2; it must have some", double{params.land_m2}));
+        throw BadParameter("measure.network_laws",
+                           fmt::format("the land has {} m2; it must have some", double{params.land_m2}));
     }
     NetworkLaws laws;
     laws.horton = horton(network.planform, orders, areas.ds_area_m2);

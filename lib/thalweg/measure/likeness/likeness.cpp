@@ -127,7 +127,7 @@ RiverCells near_rivers(flow::Reaches const& rivers, Grid const& grid, Run const&
         on_river[river.cell] = 1;
     }
     refuse_if<BadInput>(std::ranges::none_of(on_river.values(), [](std::uint8_t v) { return v != 0; }),
-                        "measure.compare_terrains: there are no rivers around which terrains could be compared");
+                        "measure.compare_terrains", "there are no rivers around which terrains could be compared");
     RiverCells found{nearest_cells(on_river, run), Raster<float>(grid)};
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         Cell const here = grid.at(i);
@@ -257,7 +257,7 @@ Mask compared_cells(Raster<float> const& dem) {
 ComparedTerrains compare_terrains(Raster<float> const& dem, std::vector<Raster<float>> const& terrains,
                                   flow::Reaches const& rivers, Run const& run) {
     for (Raster<float> const& terrain : terrains) {
-        require_same_grid(terrain.grid(), dem.grid(), "measure.compare_terrains: a terrain and the DEM",
+        require_same_grid(terrain.grid(), dem.grid(), "measure.compare_terrains", "a terrain and the DEM",
                           "make both on one grid");
     }
     Mask const compared = compared_cells(dem);

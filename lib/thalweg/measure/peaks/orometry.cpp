@@ -265,8 +265,8 @@ std::vector<Peak> prominent_peaks(Raster<float> const& dem, double least_m, Run 
 }
 
 double isolation(Raster<float> const& dem, std::int64_t cell) {
-    refuse_if<BadInput>(cell < 0 || cell >= dem.cells(), "measure.isolation: cell {} is not one of the DEM's {}", cell,
-                        dem.cells());
+    refuse_if<BadInput>(cell < 0 || cell >= dem.cells(), "measure.isolation", "cell {} is not one of the DEM's {}",
+                        cell, dem.cells());
     Cell const at = dem.grid().at(cell);
     std::int64_t const last = std::max({at.col, at.row, dem.width() - 1 - at.col, dem.height() - 1 - at.row});
     std::int64_t nearest = none_yet;

@@ -127,9 +127,8 @@ void check(GeomorphonParams const& params, Grid const& grid) {
     require_in(self, "search_cells", params.search_cells, Range::between(2, 10000));
     require_in(self, "skip_cells", params.skip_cells, Range::between(0, static_cast<double>(params.search_cells - 1)));
     require_in(self, "flat_deg", params.flat_deg, Range::inside(0.0, 45.0));
-    refuse_if<BadInput>(grid.cells() > 0 && !(grid.cell_m > 0.0),
-                        "measure.geomorphons: the DEM's cells have a side of {} m; it must be greater than 0",
-                        grid.cell_m);
+    refuse_if<BadInput>(grid.cells() > 0 && !(grid.cell_m > 0.0), "measure.geomorphons",
+                        "the DEM's cells have a side of {} m; it must be greater than 0", grid.cell_m);
 }
 
 struct RowOfExtremes : LocalExtremes {

@@ -125,15 +125,14 @@ std::int64_t cells_with_height(Raster<float> const& dem) {
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
         if (std::isinf(dem[i])) {
             Cell const c = dem.grid().at(i);
-            throw BadInput(fmt::format("measure.hypsometry: the height at column {}, row {} is infinite; mark cells "
-                                       "without data as NaN",
+            throw BadInput("measure.hypsometry",
+                           fmt::format("the height at column {}, row {} is infinite; mark cells without data as NaN",
                                        c.col, c.row));
         }
         cells += std::isnan(dem[i]) ? 0 : 1;
     }
-    refuse_if<BadInput>(cells == 0,
-                        "measure.hypsometry: none of the {} cells of the DEM has a height; is the no-data value right?",
-                        dem.cells());
+    refuse_if<BadInput>(cells == 0, "measure.hypsometry",
+                        "none of the {} cells of the DEM has a height; is the no-data value right?", dem.cells());
     return cells;
 }
 

@@ -117,8 +117,8 @@ constexpr std::array<NaturalRange, 9> ranges = {{
 
 Relief relief(Raster<float> const& dem, flow::FlowField const& drainage, Statistics const& statistics,
               ReliefParams const& params, Run const& run) {
-    refuse_if<BadInput>(statistics.cells + statistics.nodata != dem.cells(),
-                        "measure.relief: statistics of {} cells for a DEM of {}; measure this DEM",
+    refuse_if<BadInput>(statistics.cells + statistics.nodata != dem.cells(), "measure.relief",
+                        "statistics of {} cells for a DEM of {}; measure this DEM",
                         statistics.cells + statistics.nodata, dem.cells());
     require_in("measure.relief", "support_cells", params.support_cells, Range::at_least(1));
     Relief found;

@@ -33,7 +33,7 @@ void check(SlopeAreaParams const& params, Raster<float> const& dem, flow::FlowFi
     require_in(self, "bins_per_decade", params.bins_per_decade, Range::between(1, 100));
     require_in(self, "least_places", params.least_places, Range::at_least(1));
     require_in(self, "least_bins", params.least_bins, Range::at_least(3));
-    require_same_grid(dem.grid(), drainage.direction.grid(), "measure.slope_area: the DEM and its drainage",
+    require_same_grid(dem.grid(), drainage.direction.grid(), "measure.slope_area", "the DEM and its drainage",
                       "drain this DEM");
 }
 
@@ -67,7 +67,8 @@ void check(ChiParams const& params, Raster<float> const& dem, flow::FlowField co
     require_in(self, "support_cells", params.support_cells, Range::at_least(1));
     require_in(self, "least_cells", params.least_cells, Range::at_least(3));
     require_in(self, "most_stems", params.most_stems, Range::at_least(1));
-    require_same_grid(dem.grid(), drainage.direction.grid(), "measure.chi: the DEM and its drainage", "drain this DEM");
+    require_same_grid(dem.grid(), drainage.direction.grid(), "measure.chi", "the DEM and its drainage",
+                      "drain this DEM");
 }
 
 /// Cells where rivers leave the DEM, in descending order of contributing area.
@@ -154,7 +155,7 @@ void check(SlopeAreaRatioParams const& params, Raster<float> const& dem, flow::F
     require_in(self, "hillslope_to", params.hillslope_to, Range::above(static_cast<double>(params.hillslope_from)));
     require_in(self, "channel_from", params.channel_from, Range::at_least(1));
     require_in(self, "channel_to", params.channel_to, Range::above(static_cast<double>(params.channel_from)));
-    require_same_grid(dem.grid(), drainage.direction.grid(), "measure.slope_area_ratio: the DEM and its drainage",
+    require_same_grid(dem.grid(), drainage.direction.grid(), "measure.slope_area_ratio", "the DEM and its drainage",
                       "drain this DEM");
 }
 

@@ -16,9 +16,9 @@ constexpr double degrees = 180.0 / portable::pi;
 
 /// A number [deg] for each cell with a gradient.
 template <class OfGradient>
-Raster<float> by_gradient(Raster<float> const& dem, char const* what, OfGradient of_gradient, Run const& run) {
-    refuse_if<BadInput>(dem.cells() > 0 && !(dem.grid().cell_m > 0.0),
-                        "{}: the DEM's cells have a side of {} m; it must be greater than 0", what, dem.grid().cell_m);
+Raster<float> by_gradient(Raster<float> const& dem, char const* where, OfGradient of_gradient, Run const& run) {
+    refuse_if<BadInput>(dem.cells() > 0 && !(dem.grid().cell_m > 0.0), where,
+                        "the DEM's cells have a side of {} m; it must be greater than 0", dem.grid().cell_m);
     Raster<float> found(dem.grid(), std::numeric_limits<float>::quiet_NaN());
     each_gradient(dem, run, [&](std::int64_t i, Gradient rise) { found[i] = static_cast<float>(of_gradient(rise)); });
     return found;

@@ -186,9 +186,8 @@ double lowest_of_second_ring(Raster<float> const& dem, Cell at) {
 } // namespace
 
 Slopes slopes(Raster<float> const& dem, Run const& run) {
-    refuse_if<BadInput>(dem.cells() > 0 && !(dem.grid().cell_m > 0.0),
-                        "measure.slopes: the DEM's cells have a side of {} m; it must be greater than 0",
-                        dem.grid().cell_m);
+    refuse_if<BadInput>(dem.cells() > 0 && !(dem.grid().cell_m > 0.0), "measure.slopes",
+                        "the DEM's cells have a side of {} m; it must be greater than 0", dem.grid().cell_m);
     Slopes found;
     found.percentile_deg.fill(std::numeric_limits<double>::quiet_NaN());
     std::int64_t const rows = std::max<std::int64_t>(dem.height() - 2, 0);
@@ -237,9 +236,8 @@ Slopes slopes(Raster<float> const& dem, Run const& run) {
 
 LevelPatch level_patch(Raster<float> const& dem, LevelPatchParams const& params, Run const& run) {
     require_in("measure.level_patch", "below_deg", params.below_deg, Range::inside(0.0, 90.0));
-    refuse_if<BadInput>(dem.cells() > 0 && !(dem.grid().cell_m > 0.0),
-                        "measure.level_patch: the DEM's cells have a side of {} m; it must be greater than 0",
-                        dem.grid().cell_m);
+    refuse_if<BadInput>(dem.cells() > 0 && !(dem.grid().cell_m > 0.0), "measure.level_patch",
+                        "the DEM's cells have a side of {} m; it must be greater than 0", dem.grid().cell_m);
     Raster<Ground> ground = grounds(dem, params.below_deg, run);
     auto const offsets = d8_offsets(dem.grid());
     LevelPatch found;
@@ -262,7 +260,7 @@ std::vector<std::int64_t> perched(Raster<float> const& dem, std::span<std::int64
     require_in("measure.perched", "rise_m", rise_m, Range::at_least(0.0));
     std::vector<std::int64_t> found;
     for (std::int64_t const cell : cells) {
-        refuse_if<BadInput>(cell < 0 || cell >= dem.cells(), "measure.perched: cell {} is not one of the DEM's {}",
+        refuse_if<BadInput>(cell < 0 || cell >= dem.cells(), "measure.perched", "cell {} is not one of the DEM's {}",
                             cell, dem.cells());
         if (static_cast<double>(dem[cell]) - lowest_of_second_ring(dem, dem.grid().at(cell)) > rise_m) {
             found.push_back(cell);
@@ -280,7 +278,7 @@ double sunken_share(Raster<float> const& dem, std::span<std::int64_t const> cell
         is_base[i] = std::isnan(dem[i]) ? 1 : 0;
     }
     for (std::int64_t const cell : cells) {
-        refuse_if<BadInput>(cell < 0 || cell >= dem.cells(), "{}: cell {} is not one of the DEM's {}", self, cell,
+        refuse_if<BadInput>(cell < 0 || cell >= dem.cells(), self, "cell {} is not one of the DEM's {}", cell,
                             dem.cells());
         is_base[cell] = 1;
     }

@@ -120,15 +120,13 @@ double first_height(Raster<float> const& dem) {
     auto const infinite = std::find_if(values.begin(), values.end(), [](float z) { return std::isinf(z); });
     if (infinite != values.end()) {
         Cell const cell = dem.grid().at(infinite - values.begin());
-        throw BadInput(
-            fmt::format("measure.statistics: the height at column {}, row {} is infinite; mark cells without "
-                        "data as NaN",
-                        cell.col, cell.row));
+        throw BadInput("measure.statistics",
+                       fmt::format("the height at column {}, row {} is infinite; mark cells without data as NaN",
+                                   cell.col, cell.row));
     }
     auto const first = std::find_if(values.begin(), values.end(), [](float z) { return !std::isnan(z); });
-    refuse_if<BadInput>(first == values.end(),
-                        "measure.statistics: none of the {} cells of the DEM has a height; is the no-data value right?",
-                        dem.cells());
+    refuse_if<BadInput>(first == values.end(), "measure.statistics",
+                        "none of the {} cells of the DEM has a height; is the no-data value right?", dem.cells());
     return *first;
 }
 
@@ -178,9 +176,8 @@ Statistics statistics(Raster<float> const& dem, Run const& run) {
     // Sums are relative to a height of the DEM: no digits are lost to an offset, and a plain has a deviation of exactly
     // 0.
     double const datum = first_height(dem);
-    refuse_if<BadInput>(!(dem.grid().cell_m > 0.0),
-                        "measure.statistics: the DEM's cells have a side of {} m; it must be greater than 0",
-                        dem.grid().cell_m);
+    refuse_if<BadInput>(!(dem.grid().cell_m > 0.0), "measure.statistics",
+                        "the DEM's cells have a side of {} m; it must be greater than 0", dem.grid().cell_m);
     std::vector<RowSums> rows(dem.height());
     auto const for_rows = [&](auto const& add) {
         parallel_ranges(run, dem.height(), rows_a_sum, [&](std::int64_t begin, std::int64_t end) {

@@ -36,7 +36,7 @@ Swath swath(Raster<float> const& dem, std::vector<Vec2> const& line, SwathParams
     require_in("measure.swath", "width_m", params.width_m, Range::above(0.0), "m");
     require_in("measure.swath", "step_m", params.step_m, Range::at_least(0.0), "m");
     refuse_if<BadInput>(line.size() < 2 || !std::ranges::all_of(line, [](Vec2 p) { return is_finite(p); }),
-                        "measure.swath: a line of {} vertices; it has two or more, all finite", line.size());
+                        "measure.swath", "a line of {} vertices; it has two or more, all finite", line.size());
     Grid const& grid = dem.grid();
     double const step_m = params.step_m > 0.0 ? params.step_m : grid.cell_m;
     double const half_m = 0.5 * params.width_m;
@@ -69,9 +69,9 @@ Swath swath(Raster<float> const& dem, std::vector<Vec2> const& line, SwathParams
         }
         length_m += segment_m;
     }
-    refuse_if<BadInput>(!(length_m > 0.0), "measure.swath: the line has no length");
+    refuse_if<BadInput>(!(length_m > 0.0), "measure.swath", "the line has no length");
     double const wanted = std::ceil(length_m / step_m);
-    refuse_if<BadParameter>(!(wanted <= 1e8), "measure.swath: {} steps of {} m; make them longer", wanted, step_m);
+    refuse_if<BadParameter>(!(wanted <= 1e8), "measure.swath", "{} steps of {} m; make them longer", wanted, step_m);
     auto const steps = static_cast<std::size_t>(std::max(wanted, 1.0));
     Swath found{std::vector<double>(steps), std::vector<double>(steps, not_known),
                 std::vector<double>(steps, not_known), std::vector<double>(steps, not_known),

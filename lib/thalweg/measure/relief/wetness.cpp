@@ -17,7 +17,7 @@ namespace thalweg::measure {
 Raster<double> wetness(Raster<float> const& dem, Raster<double> const& area_cells, WetnessParams const& params,
                        Run const& run) {
     require_in("measure.wetness", "least_slope", params.least_slope, Range::above(0.0));
-    require_same_grid(dem.grid(), area_cells.grid(), "measure.wetness: the DEM and its areas", "route this DEM");
+    require_same_grid(dem.grid(), area_cells.grid(), "measure.wetness", "the DEM and its areas", "route this DEM");
     Raster<double> index(dem.grid(), std::numeric_limits<double>::quiet_NaN());
     each_gradient(dem, run, [&](std::int64_t i, Gradient rise) {
         double const slope = std::max(std::sqrt(rise.east * rise.east + rise.south * rise.south), params.least_slope);

@@ -49,12 +49,12 @@ void close(ZoneRelief& zone, Sums const& sums, double cell_m) {
 std::vector<ZoneRelief> zone_relief(Raster<float> const& dem, Raster<std::int32_t> const& zone, std::int64_t zones,
                                     Raster<double> const& outlet_m, Run const& run) {
     for (Grid const& other : {zone.grid(), outlet_m.grid()}) {
-        require_same_grid(dem.grid(), other, "measure.zone_relief: the DEM and its zones or lengths",
+        require_same_grid(dem.grid(), other, "measure.zone_relief", "the DEM and its zones or lengths",
                           "give those of this DEM");
     }
     auto const values = zone.values();
-    refuse_if<BadInput>(std::ranges::any_of(values, [&](std::int32_t z) { return z >= zones; }),
-                        "measure.zone_relief: a cell has a number that is not below {}", zones);
+    refuse_if<BadInput>(std::ranges::any_of(values, [&](std::int32_t z) { return z >= zones; }), "measure.zone_relief",
+                        "a cell has a number that is not below {}", zones);
     auto const offsets = d8_offsets(dem.grid());
     std::vector<ZoneRelief> relief(static_cast<std::size_t>(std::max<std::int64_t>(zones, 0)));
     std::vector<Sums> sums(relief.size());

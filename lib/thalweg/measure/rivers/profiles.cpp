@@ -205,28 +205,27 @@ void require_profiles(RiverProfiles const& rivers, char const* who) {
     bool const is_whole = rivers.receiver.size() == cells && rivers.reach.size() == cells &&
                           rivers.step_m.size() == cells && rivers.area_m2.size() == cells &&
                           rivers.z_m.size() == cells && rivers.main_in.size() == cells && rivers.is_cut.size() == cells;
-    refuse_if<BadInput>(!is_whole, "{}: the profiles have values for different numbers of cells; give all of {}", who,
+    refuse_if<BadInput>(!is_whole, who, "the profiles have values for different numbers of cells; give all of {}",
                         cells);
     for (std::size_t i = 0; i < cells; ++i) {
         auto const here = static_cast<std::int64_t>(i);
         bool const is_tree = rivers.receiver[i] >= no_place && rivers.receiver[i] < here &&
                              (rivers.main_in[i] == no_place || rivers.main_in[i] > here) &&
                              rivers.main_in[i] < static_cast<std::int64_t>(cells) && rivers.reach[i] < rivers.ds.size();
-        refuse_if<BadInput>(!is_tree,
-                            "{}: cell {} of the profiles does not belong to their tree; give them as "
-                            "river_profiles returns them",
-                            who, i);
+        refuse_if<BadInput>(
+            !is_tree, who,
+            "cell {} of the profiles does not belong to their tree; give them as river_profiles returns them", i);
     }
     for (flow::ReachId const ds : rivers.ds) {
-        refuse_if<BadInput>(ds < no_place || ds >= std::ssize(rivers.ds), "{}: reach {} does not exist", who, ds);
+        refuse_if<BadInput>(ds < no_place || ds >= std::ssize(rivers.ds), who, "reach {} does not exist", ds);
     }
 }
 
 void require_chi(RiverProfiles const& rivers, std::vector<double> const& chi, char const* who) {
     require_profiles(rivers, who);
     bool const are_known = std::ranges::all_of(chi, [](double x) { return std::isfinite(x); });
-    refuse_if<BadInput>(chi.size() != rivers.size() || !are_known,
-                        "{}: {} values of chi for {} cells; give one number a cell, as chi_along does", who, chi.size(),
+    refuse_if<BadInput>(chi.size() != rivers.size() || !are_known, who,
+                        "{} values of chi for {} cells; give one number a cell, as chi_along does", chi.size(),
                         rivers.size());
 }
 
@@ -342,7 +341,7 @@ double slope_between(Vec2 a, Vec2 b) {
 
 RiverProfiles river_profiles(flow::Reaches const& reaches, Raster<float> const& dem, flow::FlowField const& drainage,
                              Run const& run) {
-    require_same_grid(dem.grid(), drainage.grid(), "measure.river_profiles: the DEM and its drainage",
+    require_same_grid(dem.grid(), drainage.grid(), "measure.river_profiles", "the DEM and its drainage",
                       "drain this DEM");
     return Builder(reaches, dem, drainage, run).take();
 }

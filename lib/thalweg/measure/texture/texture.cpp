@@ -383,9 +383,8 @@ GradientTexture gradient_texture(Raster<float> const& dem, GradientTextureParams
     if (dem.width() < 2 || dem.height() < 2) {
         return found;
     }
-    refuse_if<BadInput>(!(dem.grid().cell_m > 0.0),
-                        "measure.gradient_texture: the DEM's cells have a side of {} m; it must be greater than 0",
-                        dem.grid().cell_m);
+    refuse_if<BadInput>(!(dem.grid().cell_m > 0.0), "measure.gradient_texture",
+                        "the DEM's cells have a side of {} m; it must be greater than 0", dem.grid().cell_m);
     found.correlation = correlations(dem, run);
     found.anisotropy = anisotropy(dem, params.window_m, run);
     return found;

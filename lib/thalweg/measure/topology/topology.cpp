@@ -69,8 +69,8 @@ std::vector<std::string> topology_kinds() {
 }
 
 TopologyReport check_topology(NetworkFile const& file, TopologyParams const& params, Run const& run) {
-    refuse_if<BadParameter>(!(params.near_m >= 0.0) || !is_number(params.near_m),
-                            "measure.check_topology: near_m = {}, it must be a distance [m] >= 0", params.near_m);
+    refuse_if<BadParameter>(!(params.near_m >= 0.0) || !is_number(params.near_m), "measure.check_topology",
+                            "near_m = {}, it must be a distance [m] >= 0", params.near_m);
     TopologyReport report;
     Findings& findings = report.findings;
     if (file.arcs.empty()) {
@@ -116,7 +116,7 @@ NetworkFile as_file(ElevatedNetwork const& network, NetworkOrders const& orders)
     refuse_if<BadInput>(
         network.node_z.size() != nodes || network.arc_z.size() != arcs || orders.strahler.size() != arcs ||
             orders.shreve.size() != arcs || orders.arc_basin.size() != arcs,
-        "measure.as_file: heights or orders are not those of this network of {} arcs and {} nodes", arcs, nodes);
+        "measure.as_file", "heights or orders are not those of this network of {} arcs and {} nodes", arcs, nodes);
     NetworkFile file;
     for (NodeId n = 0; n < nodes; ++n) {
         Vec2 const at = network.planform.node(n).at;
@@ -125,7 +125,7 @@ NetworkFile as_file(ElevatedNetwork const& network, NetworkOrders const& orders)
     for (std::size_t a = 0; a < arcs; ++a) {
         auto const& line = network.planform.arc(a).line;
         auto const& z = network.arc_z[a];
-        refuse_if<BadInput>(z.size() != line.size(), "measure.as_file: arc {} has {} vertices but {} heights", a + 1,
+        refuse_if<BadInput>(z.size() != line.size(), "measure.as_file", "arc {} has {} vertices but {} heights", a + 1,
                             line.size(), z.size());
         NetworkFile::FileArc arc;
         arc.id = static_cast<std::int64_t>(a) + 1;

@@ -73,8 +73,8 @@ public:
     Cell at(std::int64_t i) const { return number_.grid().at(cell_[i]); }
 
     void add(Cell c, std::int64_t receiver) {
-        refuse_if<BadInput>(size() >= std::numeric_limits<std::int32_t>::max(),
-                            "network.channels: rivers run through more than 2^31 cells; take larger ones");
+        refuse_if<BadInput>(size() >= std::numeric_limits<std::int32_t>::max(), "network.channels",
+                            "rivers run through more than 2^31 cells; take larger ones");
         number_[c] = static_cast<std::int32_t>(size());
         cell_.push_back(number_.grid().index(c));
         receiver_.push_back(receiver);

@@ -53,9 +53,9 @@ Raster<std::int32_t> kept_apart(Raster<std::int32_t> const& labels) {
     for (std::int64_t i = 0; i < labels.cells(); ++i) {
         if (labels[i] < 0) {
             Vec2 const at = grid.centre(grid.at(i));
-            throw BadInput(fmt::format("network.flood_lakes: the label {} at ({:.3f}, {:.3f}) is below 0; number lakes "
-                                       "from 1",
-                                       labels[i], at.x, at.y));
+            throw BadInput(
+                "network.flood_lakes",
+                fmt::format("the label {} at ({:.3f}, {:.3f}) is below 0; number lakes from 1", labels[i], at.x, at.y));
         }
         if (labels[i] == 0) {
             continue;
@@ -99,13 +99,11 @@ constexpr std::int64_t lakes_apart = 3; // [cells]
 
 void check(ChannelsOfArcs const& drawn, std::vector<double> const& area_m2, ChooseLakesParams const& params) {
     require_in("network.choose_lakes", "share", params.share, Range::between(0.0, 1.0));
-    refuse_if<BadParameter>(
-        !(params.min_area_cells >= 0.0) || params.max_cells < 4,
-        "network.choose_lakes: min_area_cells is {} and max_cells {}; they must be at least 0 and 4",
-        params.min_area_cells, params.max_cells);
-    refuse_if<BadInput>(area_m2.size() != drawn.of_arc.size(),
-                        "network.choose_lakes: {} areas for {} arcs; give those of this network", area_m2.size(),
-                        drawn.of_arc.size());
+    refuse_if<BadParameter>(!(params.min_area_cells >= 0.0) || params.max_cells < 4, "network.choose_lakes",
+                            "min_area_cells is {} and max_cells {}; they must be at least 0 and 4",
+                            params.min_area_cells, params.max_cells);
+    refuse_if<BadInput>(area_m2.size() != drawn.of_arc.size(), "network.choose_lakes",
+                        "{} areas for {} arcs; give those of this network", area_m2.size(), drawn.of_arc.size());
 }
 
 class Shores {
@@ -569,7 +567,7 @@ Raster<std::int32_t> choose_lakes(ChannelsOfArcs const& drawn, std::vector<doubl
 }
 
 FloodedLakes flood_lakes(ChannelsOfArcs const& drawn, Raster<std::int32_t> const& labels, Run const& run) {
-    require_same_grid(labels.grid(), drawn.channels.grid, "network.flood_lakes: the lakes and the channels",
+    require_same_grid(labels.grid(), drawn.channels.grid, "network.flood_lakes", "the lakes and the channels",
                       "draw both on one grid");
     Raster<std::int32_t> kept = kept_apart(labels);
     for (;;) {

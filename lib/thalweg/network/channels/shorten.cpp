@@ -28,16 +28,16 @@ using ChannelFlags = std::vector<std::uint8_t>;
 ChannelFlags flags_of(std::vector<std::int64_t> const& gone, Channels const& channels) {
     ChannelFlags is_gone(channels.cell.size(), 0);
     for (std::int64_t const i : gone) {
-        refuse_if<BadInput>(i < 0 || i >= std::ssize(is_gone), "network.shorten: cell {} of {} channel cells", i,
+        refuse_if<BadInput>(i < 0 || i >= std::ssize(is_gone), "network.shorten", "cell {} of {} channel cells", i,
                             is_gone.size());
         is_gone[i] = 1;
     }
     for (std::size_t i = 0; i < is_gone.size(); ++i) {
         if (channels.receiver[i] >= 0 && is_gone[i] == 0 && is_gone[channels.receiver[i]] != 0) {
             Vec2 const at = channels.grid.centre(channels.grid.at(channels.cell[channels.receiver[i]]));
-            throw BadInput(fmt::format("network.shorten: a river that stays flows into the cell at ({:.3f}, {:.3f}), "
-                                       "which is to go; let it go with all above it",
-                                       at.x, at.y));
+            throw BadInput("network.shorten", fmt::format("a river that stays flows into the cell at ({:.3f}, {:.3f}), "
+                                                          "which is to go; let it go with all above it",
+                                                          at.x, at.y));
         }
     }
     return is_gone;
@@ -291,9 +291,8 @@ private:
 ShortenedChannels shorten(StreamNetwork const& network, ChannelsOfArcs const& drawn,
                           std::vector<std::int64_t> const& gone) {
     require_trees(network, "network.shorten");
-    refuse_if<BadInput>(drawn.of_arc.size() != network.arc_count(),
-                        "network.shorten: channels of {} arcs for {}; draw this network", drawn.of_arc.size(),
-                        network.arc_count());
+    refuse_if<BadInput>(drawn.of_arc.size() != network.arc_count(), "network.shorten",
+                        "channels of {} arcs for {}; draw this network", drawn.of_arc.size(), network.arc_count());
     ChannelFlags const is_gone = flags_of(gone, drawn.channels);
     Tips tips(network, drawn, is_gone);
     tips.take_off();

@@ -391,7 +391,7 @@ std::vector<std::size_t> with_upstream(std::vector<Grown> const& grown, std::vec
 void require_one_grid(Channels const& channels, DemFlow const& water) {
     Grid const& grid = water.dem.grid();
     for (Grid const& other : {water.flow.grid(), water.flow.area_cells.grid(), channels.grid}) {
-        require_same_grid(grid, other, "network.side_valleys: the land and its channels or water", "drain this land");
+        require_same_grid(grid, other, "network.side_valleys", "the land and its channels or water", "drain this land");
     }
 }
 

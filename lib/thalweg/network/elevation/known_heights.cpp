@@ -25,10 +25,9 @@ namespace {
 double height_at(Raster<float> const& dem, Vec2 p) {
     Cell const cell = dem.grid().cell_of(p);
     float const z = dem.grid().contains(cell) ? dem[cell] : std::nanf("");
-    refuse_if<BadInput>(!std::isfinite(z),
-                        "network.drape: the DEM has no height at ({:.3f}, {:.3f}), where a river runs; give one that "
-                        "covers the network",
-                        p.x, p.y);
+    refuse_if<BadInput>(
+        !std::isfinite(z), "network.drape",
+        "the DEM has no height at ({:.3f}, {:.3f}), where a river runs; give one that covers the network", p.x, p.y);
     return static_cast<double>(z);
 }
 
@@ -88,9 +87,11 @@ private:
         auto const z = static_cast<double>(land_[cell]);
         if (!std::isfinite(z)) {
             Vec2 const at = land_.grid().centre(cell);
-            throw BadInput(fmt::format("network.elevate_from_dem: the land has no height at ({:.3f}, {:.3f}), where a "
-                                       "river runs; let rivers end at the coast",
-                                       at.x, at.y));
+            throw BadInput(
+                "network.elevate_from_dem",
+                fmt::format(
+                    "the land has no height at ({:.3f}, {:.3f}), where a river runs; let rivers end at the coast", at.x,
+                    at.y));
         }
         return z;
     }
@@ -226,7 +227,7 @@ LoweredNetwork lower_rises(StreamNetwork const& network, std::vector<std::vector
     for (std::size_t a = 0; whole && a < arc_z.size(); ++a) {
         whole = arc_z[a].size() == network.arc(a).line.size() && !arc_z[a].empty();
     }
-    refuse_if<BadInput>(!whole, "network.lower_rises: heights are not one for each vertex of {} arcs",
+    refuse_if<BadInput>(!whole, "network.lower_rises", "heights are not one for each vertex of {} arcs",
                         network.arc_count());
     LoweredNetwork lowered{{network, {}, arc_z}, std::vector<double>(arc_z.size(), 0.0)};
     auto& node_z = lowered.network.node_z;
@@ -288,7 +289,7 @@ ElevatedNetwork drape(StreamNetwork const& network, Raster<float> const& dem) {
 
 ElevatedNetwork elevate_from_dem(StreamNetwork const& network, Channels const& channels, Raster<float> const& land) {
     require_trees(network, "network.elevate_from_dem");
-    require_same_grid(land.grid(), channels.grid, "network.elevate_from_dem: the land and the channels",
+    require_same_grid(land.grid(), channels.grid, "network.elevate_from_dem", "the land and the channels",
                       "give the land that was made around them");
     return lower_rises(network, Heights(network, channels, land).filled()).network;
 }
@@ -334,8 +335,9 @@ ElevatedNetwork keep_heights(StreamNetwork const& network, ElevatedNetwork const
                 slope.know(given, way_m);
             }
         }
-        refuse_if<BadInput>(std::isnan(z.back()), "network.keep_heights: a river has no height at its source; give the "
-                                                  "lines Z, or choose another [network] heights");
+        refuse_if<BadInput>(
+            std::isnan(z.back()), "network.keep_heights",
+            "a river has no height at its source; give the lines Z, or choose another [network] heights");
         double& end = out.node_z[network.to(a)];
         if (std::isnan(end) || z.back() <= end) {
             end = z.back();

@@ -39,9 +39,9 @@ constexpr ByEnum<Rosgen, SlopeRange, rosgen_types.size()> slopes_of_types{{{{0.1
         list += (list.empty() ? "" : ", ") + known.back();
     }
     Vec2 const at = arc.line.front();
-    throw BadInput(fmt::format(
-        "network.assign_types: '{}', the type of arc {} (feature {}) at ({:.3f}, {:.3f}), is not one of {}.{}",
-        arc.type, number + 1, arc.feature, at.x, at.y, list, did_you_mean(arc.type, known)));
+    throw BadInput("network.assign_types",
+                   fmt::format("'{}', the type of arc {} (feature {}) at ({:.3f}, {:.3f}), is not one of {}.{}",
+                               arc.type, number + 1, arc.feature, at.x, at.y, list, did_you_mean(arc.type, known)));
 }
 
 Rosgen of_order(int order, int highest, std::vector<Rosgen> const& types) {
@@ -63,17 +63,18 @@ bool is_braided(Rosgen type) {
 
 RiverTypes assign_types(StreamNetwork const& network, NetworkOrders const& orders, AssignTypesParams const& params,
                         Run const& run) {
-    refuse_if<BadParameter>(!(params.coast_m >= 0.0), "network.assign_types: coast_m is {} m; it must be 0 or more",
+    refuse_if<BadParameter>(!(params.coast_m >= 0.0), "network.assign_types", "coast_m is {} m; it must be 0 or more",
                             params.coast_m);
-    refuse_if<BadParameter>(params.by_order.empty(), "network.assign_types: by_order names no type; name one at least");
+    refuse_if<BadParameter>(params.by_order.empty(), "network.assign_types",
+                            "by_order names no type; name one at least");
     require_trees(network, "network.assign_types");
     std::size_t const arcs = network.arc_count();
     bool const fits = orders.strahler.size() == arcs && orders.node_dist_out_m.size() == network.node_count() &&
                       std::ranges::all_of(orders.strahler, [](int w) { return w >= 1; });
-    refuse_if<BadInput>(!fits,
-                        "network.assign_types: the orders are not those of a network of {} arcs and {} nodes; give the "
-                        "orders that network.order returns",
-                        arcs, network.node_count());
+    refuse_if<BadInput>(
+        !fits, "network.assign_types",
+        "the orders are not those of a network of {} arcs and {} nodes; give the orders that network.order returns",
+        arcs, network.node_count());
     run.check();
 
     int const highest = arcs == 0 ? 1 : *std::ranges::max_element(orders.strahler);

@@ -29,8 +29,8 @@ void require_positive_lengths(StreamNetwork const& network, std::string_view who
     for (std::size_t a = 0; a < network.arc_count(); ++a) {
         if (!(network.length_m(a) > 0.0)) {
             Vec2 const at = network.node(network.from(a)).at;
-            throw BadInput(
-                fmt::format("{}: arc {} at ({:.3f}, {:.3f}) has no length; remove it", who, a + 1, at.x, at.y));
+            throw BadInput(std::string(who),
+                           fmt::format("arc {} at ({:.3f}, {:.3f}) has no length; remove it", a + 1, at.x, at.y));
         }
     }
 }
@@ -62,10 +62,10 @@ std::vector<double> between(std::vector<double> const& way, double z_up, double 
 void require_heights(StreamNetwork const& network, std::vector<double> const& node_z, std::string_view who) {
     for (std::size_t n = 0; n < node_z.size(); ++n) {
         if (!std::isfinite(node_z[n])) {
-            throw BadInput(
-                fmt::format("{}: the height of the node at ({}, {}) is not a finite number; the rivers below "
-                            "it are too long, or too steep",
-                            who, network.node(n).at.x, network.node(n).at.y));
+            throw BadInput(std::string(who),
+                           fmt::format("the height of the node at ({}, {}) is not a finite number; the rivers "
+                                       "below it are too long, or too steep",
+                                       network.node(n).at.x, network.node(n).at.y));
         }
     }
 }
@@ -143,16 +143,17 @@ void require(GradedParams const& params) {
 void require_areas(StreamNetwork const& network, std::vector<double> const& us_area_m2,
                    std::vector<double> const& ds_area_m2) {
     std::size_t const arcs = network.arc_count();
-    refuse_if<BadInput>(us_area_m2.size() != arcs || ds_area_m2.size() != arcs,
-                        "network.set_heights_graded: {} and {} areas for {} arcs; give one for each end",
-                        us_area_m2.size(), ds_area_m2.size(), arcs);
+    refuse_if<BadInput>(us_area_m2.size() != arcs || ds_area_m2.size() != arcs, "network.set_heights_graded",
+                        "{} and {} areas for {} arcs; give one for each end", us_area_m2.size(), ds_area_m2.size(),
+                        arcs);
     for (std::size_t a = 0; a < arcs; ++a) {
         for (double const area : {us_area_m2[a], ds_area_m2[a]}) {
             if (!(area >= 0.0) || !std::isfinite(area)) {
                 Vec2 const at = network.node(network.from(a)).at;
-                throw BadInput(fmt::format("network.set_heights_graded: an area of arc {} at ({:.3f}, {:.3f}) is {} "
-                                           "m2; it must be a number of 0 or more",
-                                           a + 1, at.x, at.y, area));
+                throw BadInput(
+                    "network.set_heights_graded",
+                    fmt::format("an area of arc {} at ({:.3f}, {:.3f}) is {} m2; it must be a number of 0 or more",
+                                a + 1, at.x, at.y, area));
             }
         }
     }
@@ -297,10 +298,9 @@ GradedNetwork set_heights_graded(StreamNetwork const& network, std::vector<doubl
 ElevatedNetwork set_heights_by_type(StreamNetwork const& network, RiverTypes const& types,
                                     HeightsByTypeParams const& params, Run const& run) {
     require_positive_lengths(network, "network.set_heights_by_type");
-    refuse_if<BadInput>(
-        types.type.size() != network.arc_count(),
-        "network.set_heights_by_type: {} types for {} arcs; give the types that network.assign_types returns",
-        types.type.size(), network.arc_count());
+    refuse_if<BadInput>(types.type.size() != network.arc_count(), "network.set_heights_by_type",
+                        "{} types for {} arcs; give the types that network.assign_types returns", types.type.size(),
+                        network.arc_count());
     run.check();
 
     std::vector<double> z(network.node_count(), 0.0);

@@ -183,7 +183,8 @@ template <class AllowedValues> std::size_t first_allowed(std::vector<double> con
 ChosenCell choose_cell(RiverLines const& rivers, ChooseCellParams const& params, Run const& run) {
     LinesExtent const box = extent_of(rivers);
     if (!(box.wide() > 0.0 || box.tall() > 0.0)) {
-        throw BadInput(fmt::format("network.choose_cell: {}: {}", rivers.name,
+        throw BadInput("network.choose_cell",
+                       fmt::format("{}: {}", rivers.name,
                                    rivers.lines.empty() ? "there are no lines"
                                                         : "all vertices lie at one place: there is no river"));
     }

@@ -23,7 +23,7 @@ using FileArc = NetworkFile::FileArc;
 constexpr char const* remedy = "run thalweg check on the file; its --fix writes a mended copy";
 
 [[noreturn]] void refuse(std::string const& fault) {
-    throw BadInput(fmt::format("network.from_file: {}; {}", fault, remedy));
+    throw BadInput("network.from_file", fmt::format("{}; {}", fault, remedy));
 }
 
 /// The file's own number of an arc.
@@ -251,7 +251,7 @@ StemClues::OfArc clues_of(NetworkFile::FileArc const& arc) {
 }
 
 FileNetwork from_file(NetworkFile const& file) {
-    refuse_if<BadInput>(file.arcs.empty(), "network.from_file: the file holds no arcs: is it the right layer?");
+    refuse_if<BadInput>(file.arcs.empty(), "network.from_file", "the file holds no arcs: is it the right layer?");
     bool const heights = file.says.heights;
     Nodes nodes(file);
     std::vector<std::size_t> const order = by_id(file.arcs, "arc", file.id_shift);
@@ -275,7 +275,7 @@ FileNetwork from_file(NetworkFile const& file) {
     try {
         require_trees(plan, "network.from_file");
     } catch (BadInput const& fault) {
-        throw BadInput(fmt::format("{}: {}; {}", fault.where(), fault.what(), remedy));
+        throw BadInput(fault.where(), fmt::format("{}; {}", fault.what(), remedy));
     }
     if (file.says.downstream) {
         require_downstream(file, order, plan);

@@ -369,11 +369,12 @@ private:
         Vec2 const at = p_.nodes[above(k)];
         Vec2 const pit = p_.nodes[is_pit ? own : other];
         throw BadInput(
-            fmt::format("network.import_lines: rivers {} and {} in {} both run away from ({:.6f}, {:.6f}) by {}, "
-                        "one of them into ({:.6f}, {:.6f}), which no river leaves: correct the {} there, or "
-                        "orient by something else (network.lines.orientation)",
-                        lines_[p_.pieces[k].line].number(), lines_[p_.pieces[main_[above(k)]].line].number(),
-                        file_.name, at.x, at.y, by.name, pit.x, pit.y, by.name));
+            "network.import_lines",
+            fmt::format(
+                "rivers {} and {} in {} both run away from ({:.6f}, {:.6f}) by {}, one of them into ({:.6f}, {:.6f}), "
+                "which no river leaves: correct the {} there, or orient by something else (network.lines.orientation)",
+                lines_[p_.pieces[k].line].number(), lines_[p_.pieces[main_[above(k)]].line].number(), file_.name, at.x,
+                at.y, by.name, pit.x, pit.y, by.name));
     }
 
     double height_at(std::size_t n) const {

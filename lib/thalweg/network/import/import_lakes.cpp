@@ -561,7 +561,7 @@ private:
             } else if (lake.sees(mouth.begin(), mouths[root].begin())) { // both end far within a small lake
                 way.ends_at_root = true;
             } else {
-                throw BadInput("no line lies between its shores");
+                throw BadInput("network.import_lines", "no line lies between its shores");
             }
             bool const is_stopped = stop_at(passing, way.line);
             if (has_middle) {

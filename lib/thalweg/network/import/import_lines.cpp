@@ -23,23 +23,23 @@ using import_steps::Pieces;
 
 void refuse_unusable(RiverLines const& file) {
     if (file.lines.empty()) {
-        throw BadInput("network.import_lines: " + file.name + " holds no lines");
+        throw BadInput("network.import_lines", file.name + " holds no lines");
     }
     for (auto const& line : file.lines) {
         auto const& v = line.vertices;
         for (std::size_t i = 0; i < v.size(); ++i) {
             if (!std::isfinite(v[i].x) || !std::isfinite(v[i].y) || (file.has_z && !std::isfinite(v[i].z))) {
-                throw BadInput(
-                    fmt::format("network.import_lines: vertex {} of river {} in {} is not finite: ({}, {}, {}); "
-                                "correct the file",
-                                i + 1, line.number(), file.name, v[i].x, v[i].y, v[i].z));
+                throw BadInput("network.import_lines",
+                               fmt::format("vertex {} of river {} in {} is not finite: ({}, {}, {}); correct the file",
+                                           i + 1, line.number(), file.name, v[i].x, v[i].y, v[i].z));
             }
         }
         bool const is_point =
             std::ranges::all_of(v, [&](Vec3 const& p) { return p.x == v.front().x && p.y == v.front().y; });
         if (is_point) {
             throw BadInput(
-                fmt::format("network.import_lines: river {} in {} has no length{}; remove it", line.number(), file.name,
+                "network.import_lines",
+                fmt::format("river {} in {} has no length{}; remove it", line.number(), file.name,
                             v.empty() ? std::string() : fmt::format(" at ({:.6f}, {:.6f})", v.front().x, v.front().y)));
         }
     }
@@ -303,10 +303,10 @@ void forget_lake_lines(ImportedNetwork& imported, std::int64_t number) {
 }
 
 ImportedNetwork imported_with_lakes(RiverLines const& file, ImportParams const& params, Run const& run) {
-    refuse_if<BadParameter>(!(params.snap_m >= 0.0) || !std::isfinite(params.snap_m),
-                            "network.import_lines: snap_m = {}, it is a distance [m] >= 0", params.snap_m);
-    refuse_if<BadParameter>(!(params.cell_m >= 0.0) || !std::isfinite(params.cell_m),
-                            "network.import_lines: cell_m = {}, it is a distance [m] >= 0", params.cell_m);
+    refuse_if<BadParameter>(!(params.snap_m >= 0.0) || !std::isfinite(params.snap_m), "network.import_lines",
+                            "snap_m = {}, it is a distance [m] >= 0", params.snap_m);
+    refuse_if<BadParameter>(!(params.cell_m >= 0.0) || !std::isfinite(params.cell_m), "network.import_lines",
+                            "cell_m = {}, it is a distance [m] >= 0", params.cell_m);
     refuse_unusable(file);
     auto lines = file.lines;
     ImportedNetwork imported;
@@ -332,9 +332,8 @@ ImportedNetwork imported_with_lakes(RiverLines const& file, ImportParams const& 
     if (open && snap_m > same_m) {
         import_steps::snap(lines, snap_m, SnappedEnds::open, left, run);
     }
-    refuse_if<BadInput>(lines.empty(),
-                        "network.import_lines: every river in {} is shorter than the snapping distance {} m", file.name,
-                        snap_m);
+    refuse_if<BadInput>(lines.empty(), "network.import_lines",
+                        "every river in {} is shorter than the snapping distance {} m", file.name, snap_m);
     if (params.cell_m > 0.0) {
         import_steps::drop_near_copies(lines, params.cell_m, left, run);
     }
@@ -368,8 +367,8 @@ ImportedNetwork imported_with_lakes(RiverLines const& file, ImportParams const& 
     import_steps::report_turned(pieces, lines, leaves, repairs);
     Flow const flow{pieces, lines, std::move(leaves)};
     if (std::ranges::all_of(flow.leaves, [](PieceId k) { return k == no_piece; })) {
-        throw BadInput(
-            fmt::format("network.import_lines: the lines of {} are closed rings: no river runs anywhere", file.name));
+        throw BadInput("network.import_lines",
+                       fmt::format("the lines of {} are closed rings: no river runs anywhere", file.name));
     }
     add_arcs(imported, flow, file.has_z ? node_heights(flow, repairs) : std::vector<double>(), params.join,
              {near_m, std::max(slip_in_near * near_m, params.cell_m)}, left);
@@ -402,7 +401,7 @@ std::string uphill(RiverLines const& file, Vec2 a, Vec2 b, double za, double zb)
         }
     }
     if (river == nullptr) {
-        throw BadInput("network.take_file_heights: " + file.name + " holds no lines");
+        throw BadInput("network.take_file_heights", file.name + " holds no lines");
     }
     double const drawn_upper = river->vertices[upper].z;
     double const drawn_lower = river->vertices[lower].z;
@@ -412,7 +411,7 @@ std::string uphill(RiverLines const& file, Vec2 a, Vec2 b, double za, double zb)
     }
     bool const alike = fmt::format("{:.6g}", za) == fmt::format("{:.6g}", zb);
     auto const say = [&](double z) { return alike ? fmt::format("{}", z) : fmt::format("{:.6g}", z); };
-    return fmt::format("network.take_file_heights: river {} in {} runs uphill between vertex {} ({} m) and {} ({} m). "
+    return fmt::format("river {} in {} runs uphill between vertex {} ({} m) and {} ({} m). "
                        "Reverse the line, or leave heights to [network] heights.",
                        river->feature, file.name, upper + 1, say(za), lower + 1, say(zb));
 }
@@ -438,8 +437,8 @@ ImportedNetwork import_lines(RiverLines const& file, ImportParams const& params,
 
 ElevatedNetwork take_file_heights(ImportedNetwork const& imported, RiverLines const& file) {
     if (imported.arc_z.size() != imported.network.arc_count()) {
-        throw BadInput("network.take_file_heights: the rivers of " + file.name +
-                       " carry no heights; leave heights to [network] heights");
+        throw BadInput("network.take_file_heights",
+                       "the rivers of " + file.name + " carry no heights; leave heights to [network] heights");
     }
     ElevatedNetwork raised{imported.network, std::vector<double>(imported.network.node_count(), 0.0), imported.arc_z};
     for (std::size_t i = 0; i < imported.network.arc_count(); ++i) {
@@ -447,7 +446,7 @@ ElevatedNetwork take_file_heights(ImportedNetwork const& imported, RiverLines co
         auto const& z = imported.arc_z[i];
         for (std::size_t v = 0; v + 1 < z.size(); ++v) {
             if (z[v] < z[v + 1]) {
-                throw BadInput(uphill(file, line[v], line[v + 1], z[v], z[v + 1]));
+                throw BadInput("network.take_file_heights", uphill(file, line[v], line[v + 1], z[v], z[v + 1]));
             }
         }
         raised.node_z[imported.network.from(i)] = z.front();

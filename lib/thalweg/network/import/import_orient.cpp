@@ -350,12 +350,12 @@ Pieces with_lakes_as_places(Pieces const& pieces, std::vector<RiverLine> const& 
         auto const& next = p.pieces[tree.towards[place]];
         Vec2 const at = p.nodes[place];
         throw BadInput(
-            fmt::format("network.import_lines: rivers {} and {} in {} both run away from ({:.6f}, {:.6f}) by {}; "
-                        "water has one way down from every place: remove one, or orient by something else "
-                        "(network.lines.orientation)",
+            "network.import_lines",
+            fmt::format("rivers {} and {} in {} both run away from ({:.6f}, {:.6f}) by {}; water has one way down from "
+                        "every place: remove one, or orient by something else (network.lines.orientation)",
                         lines[piece.line].number(), lines[next.line].number(), name, at.x, at.y, evidence));
     }
-    throw BadInput("network.import_lines: the rivers of " + name + " cannot be oriented by " + evidence);
+    throw BadInput("network.import_lines", "the rivers of " + name + " cannot be oriented by " + evidence);
 }
 
 } // namespace
@@ -371,10 +371,10 @@ std::vector<Evidence> evidence_of(Pieces const& pieces, std::vector<RiverLine>& 
     }
     bool const any_rank = std::ranges::any_of(lines, [](RiverLine const& l) { return l.rank != 0; });
     if (asked == Orientation::height && !file.has_z) {
-        throw BadInput("network.import_lines: the rivers of " + file.name + " carry no heights to orient them by");
+        throw BadInput("network.import_lines", "the rivers of " + file.name + " carry no heights to orient them by");
     }
     if (asked == Orientation::rank && !any_rank) {
-        throw BadInput("network.import_lines: the rivers of " + file.name + " carry no rank to orient them by");
+        throw BadInput("network.import_lines", "the rivers of " + file.name + " carry no rank to orient them by");
     }
     std::vector<Evidence> evidence;
     bool const any_link = std::ranges::any_of(lines, [](RiverLine const& l) { return l.down != 0; });

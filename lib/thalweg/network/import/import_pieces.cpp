@@ -504,10 +504,9 @@ void split(std::vector<RiverLine>& lines, Run const& run) {
         insert(lines, std::move(additions));
         drop_repeats(lines);
     }
-    throw BadInput(
-        fmt::format("network.import_lines: rivers run so close together at ({:.6f}, {:.6f}) that their crossings "
-                    "cannot be told apart; remove one of them there",
-                    unsettled.x, unsettled.y));
+    throw BadInput("network.import_lines", fmt::format("rivers run so close together at ({:.6f}, {:.6f}) that their "
+                                                       "crossings cannot be told apart; remove one of them there",
+                                                       unsettled.x, unsettled.y));
 }
 
 void drop_overshoots(std::vector<RiverLine>& lines, double most_m, Left& left) {
@@ -563,9 +562,9 @@ void refuse_cycles(Pieces const& p, std::vector<RiverLine> const& lines, std::st
         Vec2 const at = p.nodes[piece.from];
         Vec2 const through = p.nodes[piece.to];
         throw BadInput(
-            fmt::format("network.import_lines: river{} {} in {} {} a cycle through ({:.6f}, {:.6f}) and ({:.6f}, "
-                        "{:.6f}); water has one way down from every place: remove one "
-                        "branch, or keep the main one by divergences = \"main\"",
+            "network.import_lines",
+            fmt::format("river{} {} in {} {} a cycle through ({:.6f}, {:.6f}) and ({:.6f}, {:.6f}); water has one way "
+                        "down from every place: remove one branch, or keep the main one by divergences = \"main\"",
                         features.size() == 1 ? "" : "s", named, name, features.size() == 1 ? "forms" : "form", at.x,
                         at.y, through.x, through.y));
     }

@@ -505,7 +505,7 @@ std::vector<Vec3> with_heights_between(std::vector<Vec3> line) {
 }
 
 FilledHeights fill_heights(RiverLines lines, double slope) {
-    refuse_if<BadParameter>(!(slope > 0.0), "network.fill_heights: slope {}; give one above 0", slope);
+    refuse_if<BadParameter>(!(slope > 0.0), "network.fill_heights", "slope {}; give one above 0", slope);
     FilledHeights out{std::move(lines)};
     Filling filling(out.lines.lines, slope);
     if (filling.open().empty() || !filling.tells_anything()) {

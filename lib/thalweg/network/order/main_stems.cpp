@@ -83,9 +83,8 @@ private:
 std::vector<ArcId> main_inflows(StreamNetwork const& network, StemClues const& clues, MainBy by) {
     require_trees(network, "network.main_inflows");
     bool const has_clues = !clues.arcs.empty();
-    refuse_if<BadInput>(has_clues && clues.arcs.size() != network.arc_count(),
-                        "network.main_inflows: {} clues for {} arcs; give those of this network", clues.arcs.size(),
-                        network.arc_count());
+    refuse_if<BadInput>(has_clues && clues.arcs.size() != network.arc_count(), "network.main_inflows",
+                        "{} clues for {} arcs; give those of this network", clues.arcs.size(), network.arc_count());
     bool const all_clues = has_clues && by == MainBy::file;
     std::vector<double> longest_m(network.arc_count(), 0.0); // flow path from a source to the arc's lower end
     std::vector<double> sum_m(network.arc_count(), 0.0);     // length of all arcs upstream, its own included

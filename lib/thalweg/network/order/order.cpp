@@ -17,14 +17,16 @@ namespace thalweg::network {
 void require_trees(StreamNetwork const& network, std::string_view who) {
     for (std::size_t a = 0; a < network.arc_count(); ++a) {
         // A sum of square roots is finite only if every coordinate is.
-        refuse_if<BadInput>(!std::isfinite(network.length_m(a)),
-                            "{}: arc {} has a coordinate that is not a number; mend the line", who, a + 1);
+        refuse_if<BadInput>(!std::isfinite(network.length_m(a)), who,
+                            "arc {} has a coordinate that is not a number; mend the line", a + 1);
     }
     for (NodeId n = 0; n < network.node_count(); ++n) {
         if (network.out_arcs(n).size() > 1) {
-            throw BadInput(fmt::format("{}: {} arcs leave the node at ({:.3f}, {:.3f}); a river may leave a node once, "
-                                       "remove the bifurcation",
-                                       who, network.out_arcs(n).size(), network.node(n).at.x, network.node(n).at.y));
+            throw BadInput(
+                std::string(who),
+                fmt::format(
+                    "{} arcs leave the node at ({:.3f}, {:.3f}); a river may leave a node once, remove the bifurcation",
+                    network.out_arcs(n).size(), network.node(n).at.x, network.node(n).at.y));
         }
     }
     for (NodeId n = 0; n < network.node_count(); ++n) {
@@ -33,9 +35,11 @@ void require_trees(StreamNetwork const& network, std::string_view who) {
             for (std::size_t step = 0; step < network.node_count(); ++step) {
                 on_cycle = network.to(network.out(on_cycle));
             }
-            throw BadInput(fmt::format("{}: the rivers run in a circle through the node at ({:.3f}, {:.3f}); turn or "
-                                       "remove one of them",
-                                       who, network.node(on_cycle).at.x, network.node(on_cycle).at.y));
+            throw BadInput(
+                std::string(who),
+                fmt::format(
+                    "the rivers run in a circle through the node at ({:.3f}, {:.3f}); turn or remove one of them",
+                    network.node(on_cycle).at.x, network.node(on_cycle).at.y));
         }
     }
 }
@@ -84,9 +88,8 @@ NetworkOrders order(StreamNetwork const& network, std::vector<ArcId> const& main
         bool const is_of_node =
             main_in.size() == nodes &&
             (network.in(n).empty() ? main_in[n] == no_arc : std::ranges::count(network.in(n), main_in[n]) == 1);
-        refuse_if<BadInput>(!is_of_node,
-                            "network.order: main inflow {} does not end in node {}; give those of this "
-                            "network",
+        refuse_if<BadInput>(!is_of_node, "network.order",
+                            "main inflow {} does not end in node {}; give those of this network",
                             n < main_in.size() ? main_in[n] : no_arc, n);
     }
 
@@ -144,7 +147,7 @@ NetworkOrders order(StreamNetwork const& network, std::vector<ArcId> const& main
 std::vector<std::int64_t> streams(StreamNetwork const& network, NetworkOrders const& orders) {
     require_trees(network, "network.streams");
     std::size_t const arcs = network.arc_count();
-    refuse_if<BadInput>(orders.strahler.size() != arcs, "network.streams: {} orders for {} arcs; order this network",
+    refuse_if<BadInput>(orders.strahler.size() != arcs, "network.streams", "{} orders for {} arcs; order this network",
                         orders.strahler.size(), arcs);
     std::vector<std::size_t> mouth(arcs); // the last arc of the stream
     for (NodeId const n : network.upstream_order()) {
@@ -176,9 +179,8 @@ StreamCounts count_streams(std::vector<std::int64_t> const& down) {
     std::vector<std::size_t> highest(links, 0); // among those upstream
     std::vector<int> equals(links, 0);          // number of those upstream with the highest order
     for (std::size_t i = links; i-- > 0;) {
-        refuse_if<BadInput>(down[i] >= static_cast<std::int64_t>(i),
-                            "network.count_streams: link {} flows into link {}; number them from the outlet", i,
-                            down[i]);
+        refuse_if<BadInput>(down[i] >= static_cast<std::int64_t>(i), "network.count_streams",
+                            "link {} flows into link {}; number them from the outlet", i, down[i]);
         counts.sources += highest[i] == 0 ? 1 : 0;
         order[i] = std::max<std::size_t>(1, highest[i] + (equals[i] > 1 ? 1 : 0));
         orders = std::max(orders, order[i]);

@@ -18,7 +18,7 @@ using Link = std::size_t;
 std::vector<std::vector<Link>> inflows_of(std::vector<std::int64_t> const& down, char const* who) {
     std::vector<std::vector<Link>> inflows(down.size());
     for (Link a = 0; a < down.size(); ++a) {
-        refuse_if<BadInput>(down[a] >= std::ssize(down), "{}: link {} flows into link {} of {}", who, a, down[a],
+        refuse_if<BadInput>(down[a] >= std::ssize(down), who, "link {} flows into link {} of {}", a, down[a],
                             down.size());
         if (down[a] >= 0) {
             inflows[static_cast<Link>(down[a])].push_back(a);
@@ -40,7 +40,7 @@ std::vector<Link> upstream_order(std::vector<std::int64_t> const& down, std::vec
         std::vector<Link> const& above = inflows[order[next]];
         order.insert(order.end(), above.begin(), above.end());
     }
-    refuse_if<BadInput>(order.size() < down.size(), "{}: {} links run in a circle", who, down.size() - order.size());
+    refuse_if<BadInput>(order.size() < down.size(), who, "{} links run in a circle", down.size() - order.size());
     return order;
 }
 
@@ -178,8 +178,8 @@ std::vector<std::string> pfafstetter(std::vector<std::int64_t> const& down, std:
                                      PfafstetterParams const& params) {
     constexpr char const* self = "network.pfafstetter";
     require_in(self, "levels", params.levels, Range::between(1, 18));
-    refuse_if<BadInput>(area_m2.size() != down.size(), "{}: {} areas for {} links; give one a link", self,
-                        area_m2.size(), down.size());
+    refuse_if<BadInput>(area_m2.size() != down.size(), self, "{} areas for {} links; give one a link", area_m2.size(),
+                        down.size());
     auto const inflows = inflows_of(down, self);
     std::ignore = upstream_order(down, inflows, self);
     Codes codes(inflows, area_m2);

@@ -12,8 +12,8 @@
 namespace thalweg::network {
 namespace {
 
-void require_arc(StreamNetwork const& network, ArcId arc, char const* what) {
-    refuse_if<BadParameter>(arc >= network.arc_count(), "{}: there is no arc {}; they are 0 to {}", what,
+void require_arc(StreamNetwork const& network, ArcId arc, char const* where) {
+    refuse_if<BadParameter>(arc >= network.arc_count(), where, "there is no arc {}; they are 0 to {}",
                             static_cast<std::int64_t>(arc), static_cast<std::int64_t>(network.arc_count()) - 1);
 }
 
@@ -71,18 +71,17 @@ std::vector<ArcId> downstream_of(StreamNetwork const& network, ArcId arc) {
     require_arc(network, arc, "network.downstream_of");
     std::vector<ArcId> found;
     for (ArcId at = arc; at != no_arc; at = network.out(network.to(at))) {
-        refuse_if<BadInput>(found.size() >= network.arc_count(), "network.downstream_of: arcs form a cycle");
-        refuse_if<BadInput>(network.out_arcs(network.to(at)).size() > 1,
-                            "network.downstream_of: several arcs leave node {}; the network must be a forest",
-                            network.to(at));
+        refuse_if<BadInput>(found.size() >= network.arc_count(), "network.downstream_of", "arcs form a cycle");
+        refuse_if<BadInput>(network.out_arcs(network.to(at)).size() > 1, "network.downstream_of",
+                            "several arcs leave node {}; the network must be a forest", network.to(at));
         found.push_back(at);
     }
     return found;
 }
 
 ArcId nearest_arc(StreamNetwork const& network, Vec2 at) {
-    refuse_if<BadInput>(network.arc_count() == 0, "network.nearest_arc: the network has no arcs");
-    refuse_if<BadInput>(!is_finite(at), "network.nearest_arc: the point is not finite");
+    refuse_if<BadInput>(network.arc_count() == 0, "network.nearest_arc", "the network has no arcs");
+    refuse_if<BadInput>(!is_finite(at), "network.nearest_arc", "the point is not finite");
     ArcId nearest = 0;
     double least_m = std::numeric_limits<double>::infinity();
     for (ArcId arc = 0; arc < network.arc_count(); ++arc) {

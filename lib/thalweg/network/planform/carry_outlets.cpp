@@ -553,9 +553,9 @@ private:
 CarriedNetwork carry(StreamNetwork const& network, Grid const& grid, RiverEnds const& ends, std::int64_t reach_cells,
                      CarryParams const& params) {
     require_trees(network, "network.carry_outlets");
-    refuse_if<BadParameter>(!(params.join_cells >= 0.0 && params.beside_cells >= 0.0),
-                            "network.carry_outlets: joining costs {} cells, a cell beside a river {}; give 0 or more",
-                            params.join_cells, params.beside_cells);
+    refuse_if<BadParameter>(!(params.join_cells >= 0.0 && params.beside_cells >= 0.0), "network.carry_outlets",
+                            "joining costs {} cells, a cell beside a river {}; give 0 or more", params.join_cells,
+                            params.beside_cells);
     Carrying carrying(network, grid, ends, params);
     CarriedNetwork carried;
     for (NodeId const outlet : outlets_inside(network, grid, ends, reach_cells)) {

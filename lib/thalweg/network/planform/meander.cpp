@@ -81,16 +81,15 @@ void check(StreamNetwork const& network, Grid const& grid, std::vector<double> c
     require_in("network.meander", "gain", params.gain, Range::between(0.0, 2.0));
     require_in("network.meander", "gap_cells", params.gap_cells, Range::between(0.5, 4.0));
     require_trees(network, "network.meander");
-    refuse_if<BadInput>(area_m2.size() != network.arc_count(),
-                        "network.meander: {} areas for {} arcs; give those of this network", area_m2.size(),
-                        network.arc_count());
+    refuse_if<BadInput>(area_m2.size() != network.arc_count(), "network.meander",
+                        "{} areas for {} arcs; give those of this network", area_m2.size(), network.arc_count());
     for (std::size_t a = 0; a < network.arc_count(); ++a) {
-        refuse_if<BadInput>(!(area_m2[a] >= 0.0) || !std::isfinite(area_m2[a]),
-                            "network.meander: the area of arc {} is {}; it must be 0 or more", a + 1, area_m2[a]);
+        refuse_if<BadInput>(!(area_m2[a] >= 0.0) || !std::isfinite(area_m2[a]), "network.meander",
+                            "the area of arc {} is {}; it must be 0 or more", a + 1, area_m2[a]);
         if (!(network.length_m(a) > 0.0)) {
             Vec2 const at = network.node(network.from(a)).at;
-            throw BadInput(
-                fmt::format("network.meander: arc {} at ({:.3f}, {:.3f}) has no length; remove it", a + 1, at.x, at.y));
+            throw BadInput("network.meander",
+                           fmt::format("arc {} at ({:.3f}, {:.3f}) has no length; remove it", a + 1, at.x, at.y));
         }
         cells_of_vertices(network.arc(a).line, grid, fmt::format("arc {}", a + 1));
     }
@@ -312,8 +311,8 @@ void require_apart(StreamNetwork const& network, Run const& run) {
     auto const found = geometry::meetings(lines, nodes, run);
     if (!found.empty()) {
         geometry::Meeting const& m = found.front();
-        throw BadInput(fmt::format("network.meander: arcs {} and {} meet at ({:.3f}, {:.3f}), where no node is; mend "
-                                   "the network first",
+        throw BadInput("network.meander",
+                       fmt::format("arcs {} and {} meet at ({:.3f}, {:.3f}), where no node is; mend the network first",
                                    m.line + 1, m.other + 1, m.at.x, m.at.y));
     }
 }

@@ -67,8 +67,8 @@ double random_turn(std::uint64_t seed) {
 
 RotatedNetwork rotate(StreamNetwork const& network, Grid const& frame, RotateParams const& params) {
     require_in("network.rotate", "turn_deg", params.turn_deg, Range::between(-180.0, 180.0));
-    refuse_if<BadInput>(network.arc_count() == 0,
-                        "network.rotate: the network has no arcs; trace or read some rivers first");
+    refuse_if<BadInput>(network.arc_count() == 0, "network.rotate",
+                        "the network has no arcs; trace or read some rivers first");
     require_trees(network, "network.rotate");
     RotatedNetwork out{{}, frame};
     NetworkDraft turned = network.draft();
@@ -85,8 +85,9 @@ RotatedNetwork rotate(StreamNetwork const& network, Grid const& frame, RotatePar
     double const high = (box.high.y - box.low.y) / frame.cell_m;
     out.grid = grid_around(frame, wide, high);
     refuse_if<BadInput>(wide > static_cast<double>(out.grid.width) || high > static_cast<double>(out.grid.height),
-                        "network.rotate: the network is {:.1f} x {:.1f} cells when turned by {} degrees, the grid {} x "
-                        "{}; enlarge it, or leave out width and height",
+                        "network.rotate",
+                        "the network is {:.1f} x {:.1f} cells when turned by {} degrees, the grid {} x {}; enlarge it, "
+                        "or leave out width and height",
                         wide, high, params.turn_deg, out.grid.width, out.grid.height);
     Vec2 const middle{0.5 * (out.grid.west + out.grid.east()), 0.5 * (out.grid.north + out.grid.south())};
     each_position(turned, [&](Vec2& p) {

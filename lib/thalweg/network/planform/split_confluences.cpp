@@ -419,9 +419,8 @@ private:
 };
 
 void require(SplitParams const& params, ElevatedNetwork const& network) {
-    refuse_if<BadParameter>(params.max_upstream < 2,
-                            "network.split_confluences: max_upstream is {}; a confluence joins at least 2",
-                            params.max_upstream);
+    refuse_if<BadParameter>(params.max_upstream < 2, "network.split_confluences",
+                            "max_upstream is {}; a confluence joins at least 2", params.max_upstream);
     require_in("network.split_confluences", "distance", params.distance_m, Range::at_least(0.0), "m");
     require_trees(network.planform, "network.split_confluences");
     bool whole =
@@ -430,12 +429,12 @@ void require(SplitParams const& params, ElevatedNetwork const& network) {
         auto const& line = network.planform.arc(a).line;
         whole = network.arc_z[a].size() == line.size();
         if (auto const twice = std::ranges::adjacent_find(line); twice != line.end()) {
-            throw BadInput(fmt::format("network.split_confluences: arc {} has the vertex ({}, {}) twice in a row; "
-                                       "remove one",
-                                       a + 1, twice->x, twice->y));
+            throw BadInput(
+                "network.split_confluences",
+                fmt::format("arc {} has the vertex ({}, {}) twice in a row; remove one", a + 1, twice->x, twice->y));
         }
     }
-    refuse_if<BadInput>(!whole, "network.split_confluences: the heights are not those of this network");
+    refuse_if<BadInput>(!whole, "network.split_confluences", "the heights are not those of this network");
 }
 
 } // namespace
@@ -477,8 +476,9 @@ Split split_confluences(ElevatedNetwork const& network, SplitParams const& param
         while (net.arcs_into(crowded[i]) > most) {
             if (!splitter.split(crowded[i], arcs)) {
                 Vec3 const at = net.at(crowded[i]);
-                throw BadInput(fmt::format("network.split_confluences: {} rivers meet at ({}, {}), and lines nearby "
-                                           "leave no room to split them; draw them farther apart",
+                throw BadInput("network.split_confluences",
+                               fmt::format("{} rivers meet at ({}, {}), and lines nearby leave no room to split them; "
+                                           "draw them farther apart",
                                            net.arcs_into(crowded[i]), at.x, at.y));
             }
         }

@@ -26,10 +26,9 @@ std::vector<std::int64_t> lengths_in_units(StreamNetwork const& network, double 
     for (double const length_m : network.length_m()) {
         total_m += length_m;
     }
-    refuse_if<BadParameter>(
-        !(total_m / cell_m < 0x1p36),
-        "network.prune: the rivers are {} m long, too long for cells of {} m; give the cell in metres", total_m,
-        cell_m);
+    refuse_if<BadParameter>(!(total_m / cell_m < 0x1p36), "network.prune",
+                            "the rivers are {} m long, too long for cells of {} m; give the cell in metres", total_m,
+                            cell_m);
     std::vector<std::int64_t> units;
     for (ArcId arc = 0; arc < network.arc_count(); ++arc) {
         std::vector<Vec2> const& line = network.arc(arc).line;
@@ -193,8 +192,8 @@ PrunedNetwork prune(StreamNetwork const& network, PruneParams const& params, Run
     require_in("network.prune", "length", params.length_m, Range::at_least(0.0), "m");
     require_in("network.prune", "cell", params.cell_m, Range::above(0.0), "m");
     require_trees(network, "network.prune");
-    refuse_if<BadInput>(network.arc_count() == 0,
-                        "network.prune: the network has no arcs; trace or read some rivers first");
+    refuse_if<BadInput>(network.arc_count() == 0, "network.prune",
+                        "the network has no arcs; trace or read some rivers first");
 
     std::vector<std::int64_t> const units = lengths_in_units(network, params.cell_m);
     std::vector<std::int64_t> const persistence = survival(network, Remains(network, units), run);
@@ -211,9 +210,10 @@ PrunedNetwork prune(StreamNetwork const& network, PruneParams const& params, Run
     if (std::find(kept.begin(), kept.end(), 1) == kept.end()) {
         auto const longest = *std::max_element(persistence.begin(), persistence.end());
         std::string const most = readable_floor(static_cast<double>(longest) / units_per_cell);
-        throw BadParameter(fmt::format("network.prune: pruning at {:.12g} cells removes every arc (the longest is {}). "
-                                       "Try {} or less.",
-                                       params.length_m / params.cell_m, most, most));
+        throw BadParameter(
+            "network.prune",
+            fmt::format("pruning at {:.12g} cells removes every arc (the longest is {}). Try {} or less.",
+                        params.length_m / params.cell_m, most, most));
     }
     // L = 0 leaves a network unchanged, with the nodes between its features.
     pruned.network =

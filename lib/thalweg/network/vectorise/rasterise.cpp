@@ -57,9 +57,9 @@ void lower_downstream(std::vector<Step> steps, RasterisedRivers& out) {
 } // namespace
 
 RasterisedRivers rasterise(ElevatedNetwork const& network, Grid const& grid) {
-    refuse_if<BadInput>(network.arc_z.size() != network.planform.arc_count(),
-                        "network.rasterise: {} arcs with heights for {}; set the heights again",
-                        network.planform.arc_count(), network.arc_z.size());
+    refuse_if<BadInput>(network.arc_z.size() != network.planform.arc_count(), "network.rasterise",
+                        "{} arcs with heights for {}; set the heights again", network.planform.arc_count(),
+                        network.arc_z.size());
     RasterisedRivers out;
     out.valley.z = Raster<float>(grid, std::numeric_limits<float>::quiet_NaN());
     Raster<float>& z = out.valley.z;
@@ -68,18 +68,18 @@ RasterisedRivers rasterise(ElevatedNetwork const& network, Grid const& grid) {
         std::vector<Cell> const at =
             cells_of_vertices(network.planform.arc(a).line, grid, fmt::format("arc {}", a + 1));
         std::vector<double> const& height = network.arc_z[a];
-        refuse_if<BadInput>(height.size() != at.size(),
-                            "network.rasterise: arc {} has {} vertices and {} heights; set the heights again", a + 1,
-                            at.size(), height.size());
+        refuse_if<BadInput>(height.size() != at.size(), "network.rasterise",
+                            "arc {} has {} vertices and {} heights; set the heights again", a + 1, at.size(),
+                            height.size());
         std::int64_t before = grid.index(at.front());
         for (std::size_t i = 1; i < at.size(); ++i) {
             double const from = height[i - 1];
             double const to = height[i];
             if (!std::isfinite(from) || !std::isfinite(to)) {
                 Vec2 const p = network.planform.arc(a).line[std::isfinite(from) ? i : i - 1];
-                throw BadInput(fmt::format("network.rasterise: the height of arc {} at ({:.3f}, {:.3f}) is not a "
-                                           "number; set it in the file or let it be computed",
-                                           a + 1, p.x, p.y));
+                throw BadInput("network.rasterise", fmt::format("the height of arc {} at ({:.3f}, {:.3f}) is not a "
+                                                                "number; set it in the file or let it be computed",
+                                                                a + 1, p.x, p.y));
             }
             double const lowest = std::min(from, to);
             walk_cells(at[i - 1], at[i], [&](Cell c, std::int64_t k, std::int64_t n) {

@@ -160,12 +160,13 @@ void drain_to(Number outlet, SkeletonGraph const& graph, std::vector<Number>& do
 
 StreamNetwork trace(Mask const& skeleton, TraceParams const& params, Run const& run) {
     Vec2 const asked = params.mouth;
-    refuse_if<BadParameter>(!is_finite(asked), "network.trace: the mouth is not a finite position; give it in metres");
+    refuse_if<BadParameter>(!is_finite(asked), "network.trace",
+                            "the mouth is not a finite position; give it in metres");
     SkeletonGraph const graph(skeleton);
     Grid const& grid = skeleton.grid();
     std::size_t const cells = graph.size();
-    refuse_if<BadInput>(cells == 0,
-                        "network.trace: the skeleton is empty; grow a larger cluster or choose another branch");
+    refuse_if<BadInput>(cells == 0, "network.trace",
+                        "the skeleton is empty; grow a larger cluster or choose another branch");
 
     Vec2 const mouth = in_cells(grid, asked);
     std::vector<std::uint8_t> seen(cells, 0);
@@ -207,9 +208,9 @@ StreamNetwork trace(Mask const& skeleton, TraceParams const& params, Run const& 
         } while (node[at] == no_node);
         network.add_arc(node[i], node[at], std::move(arc));
     }
-    refuse_if<BadInput>(network.arcs.empty(),
-                        "network.trace: no two of the skeleton's {} cells are neighbours, there is nothing to trace; "
-                        "grow a larger cluster or choose another branch",
+    refuse_if<BadInput>(network.arcs.empty(), "network.trace",
+                        "no two of the skeleton's {} cells are neighbours, there is nothing to trace; grow a larger "
+                        "cluster or choose another branch",
                         cells);
     return network;
 }

@@ -539,8 +539,9 @@ Convergence conjugate_gradients(ColouredProblem& problem, std::vector<CoarseLeve
             }
         }
         if (done == goal.most_iterations) {
-            throw NotConverged(fmt::format("solver.solve_poisson: after {} iterations the residual is {:.3g} of what "
-                                           "it was instead of {:.3g}; ask for less or allow more of them",
+            throw NotConverged("solver.solve_poisson",
+                               fmt::format("after {} iterations the residual is {:.3g} of what it was instead of "
+                                           "{:.3g}; ask for less or allow more of them",
                                            done, norm / zero, goal.tolerance));
         }
         if (norm < zero) {
@@ -559,8 +560,9 @@ Convergence conjugate_gradients(ColouredProblem& problem, std::vector<CoarseLeve
                 if (norm <= wanted) {
                     return {done + 1, norm};
                 }
-                throw NotConverged(fmt::format("solver.solve_poisson: the residual stays at {:.3g} of what it was, "
-                                               "where double has no more digits; a tolerance of {:.3g} is out of reach",
+                throw NotConverged("solver.solve_poisson",
+                                   fmt::format("the residual stays at {:.3g} of what it was, where double has no more "
+                                               "digits; a tolerance of {:.3g} is out of reach",
                                                norm / zero, goal.tolerance));
             }
             counted = norm;

@@ -86,26 +86,25 @@ void require_one_frame(GridProblem const& problem, char const* stage) {
     Grid const& grid = problem.kind.grid();
     auto const fits = [&](Grid const& other) { return other.width == grid.width && other.height == grid.height; };
     refuse_if<BadInput>(
-        !fits(problem.value.grid()) || (problem.source.cells() > 0 && !fits(problem.source.grid())),
-        "{}: kinds of {} x {} cells, values of {} x {}, a source of {} x {}; the three must have one frame", stage,
-        grid.width, grid.height, problem.value.width(), problem.value.height(), problem.source.width(),
-        problem.source.height());
+        !fits(problem.value.grid()) || (problem.source.cells() > 0 && !fits(problem.source.grid())), stage,
+        "kinds of {} x {} cells, values of {} x {}, a source of {} x {}; the three must have one frame", grid.width,
+        grid.height, problem.value.width(), problem.value.height(), problem.source.width(), problem.source.height());
 }
 
 void require_solvable(GridProblem const& problem, Contents const& all, char const* stage, Run const& run) {
     Grid const& grid = problem.kind.grid();
     if (all.bad < grid.cells()) {
         Cell const c = grid.at(all.bad);
-        throw BadInput(fmt::format("{}: the cell at column {}, row {} has the kind {}, the value {} "
-                                   "and the source {}; a fixed cell needs a finite value, a free one a finite source",
-                                   stage, c.col, c.row, problem.kind[c], problem.value[c],
-                                   problem.source.cells() > 0 ? problem.source[c] : 0.0));
+        throw BadInput(stage, fmt::format("the cell at column {}, row {} has the kind {}, the value {} and the source "
+                                          "{}; a fixed cell needs a finite value, a free one a finite source",
+                                          c.col, c.row, problem.kind[c], problem.value[c],
+                                          problem.source.cells() > 0 ? problem.source[c] : 0.0));
     }
     if (all.free > 0 && (all.fixed == 0 || all.outside > 0)) {
         if (auto const lost = unreached(problem.kind, run); !lost.empty()) {
-            throw BadInput(fmt::format("{}: no path leads from the free cell at column {}, row {} to "
-                                       "a fixed one; fix a cell of its part or put the part outside",
-                                       stage, lost.front().begin, lost.front().row));
+            throw BadInput(stage, fmt::format("no path leads from the free cell at column {}, row {} to a fixed one; "
+                                              "fix a cell of its part or put the part outside",
+                                              lost.front().begin, lost.front().row));
         }
     }
 }
@@ -157,13 +156,13 @@ constexpr std::int64_t block_rows = 32;
 constexpr int sweeps_a_pass = 4; // recomputing the rows around a block costs less than leaving the cache
 
 void require(GridProblem const& problem, ExplicitParams const& params) {
-    refuse_if<BadParameter>(!(params.alpha > 0.0 && params.alpha <= 0.25),
-                            "solver.relax_explicit: alpha is {}; it must be greater than 0 and at most 1/4, for beyond "
-                            "it sweeps make the differences between cells grow",
+    refuse_if<BadParameter>(!(params.alpha > 0.0 && params.alpha <= 0.25), "solver.relax_explicit",
+                            "alpha is {}; it must be greater than 0 and at most 1/4, for beyond it sweeps make the "
+                            "differences between cells grow",
                             params.alpha);
     require_in("solver.relax_explicit", "sweeps", params.sweeps, Range::at_least(0));
-    refuse_if<BadInput>(problem.source.cells() > 0,
-                        "solver.relax_explicit: the problem has a source; solve_poisson takes one");
+    refuse_if<BadInput>(problem.source.cells() > 0, "solver.relax_explicit",
+                        "the problem has a source; solve_poisson takes one");
 }
 
 /// A block of rows and its surrounding rows, before and after a sweep.
@@ -364,9 +363,8 @@ GridSolution solve_poisson(GridProblem problem, PoissonParams const& params, Run
 GridSolution relax_explicit(GridProblem problem, ExplicitParams const& params, Run const& run) {
     require(problem, params);
     Contents const contents = survey_problem(problem, "solver.relax_explicit", run);
-    refuse_if<BadInput>(contents.unknown > 0,
-                        "solver.relax_explicit: {} free cells have no finite value; each needs one to start from",
-                        contents.unknown);
+    refuse_if<BadInput>(contents.unknown > 0, "solver.relax_explicit",
+                        "{} free cells have no finite value; each needs one to start from", contents.unknown);
     GridSolution solution;
     if (contents.free > 0) {
         GridRows const& rows = grid_rows(widest_lanes());

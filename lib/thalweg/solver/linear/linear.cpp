@@ -30,12 +30,12 @@ MatrixXd matrix_of(Matrix const& a) {
 
 void require(Matrix const& a, std::vector<double> const& b) {
     refuse_if<BadInput>(a.rows != b.size() || a.columns == 0 || a.values.size() != a.rows * a.columns,
-                        "solver.least_squares: {} x {} matrix with {} values for {} right sides", a.rows, a.columns,
+                        "solver.least_squares", "{} x {} matrix with {} values for {} right sides", a.rows, a.columns,
                         a.values.size(), b.size());
     auto const finite = [](double v) { return std::isfinite(v); };
     refuse_if<BadInput>(!std::all_of(a.values.begin(), a.values.end(), finite) ||
                             !std::all_of(b.begin(), b.end(), finite),
-                        "solver.least_squares: matrix or right side holds a value that is not a number");
+                        "solver.least_squares", "matrix or right side holds a value that is not a number");
 }
 
 Solution finished(MatrixXd const& a, VectorXd const& b, VectorXd const& x, Index rank) {
@@ -80,7 +80,7 @@ VectorXd least_on_sphere(MatrixXd const& s, VectorXd const& g, double tau) {
 std::vector<Index> unbound_columns(std::size_t columns, std::vector<std::size_t> const& unknowns) {
     std::vector<bool> bound(columns, false);
     for (std::size_t const column : unknowns) {
-        refuse_if<BadParameter>(column >= columns || bound[column], "solver.least_squares_on_sphere: column {} of {}",
+        refuse_if<BadParameter>(column >= columns || bound[column], "solver.least_squares_on_sphere", "column {} of {}",
                                 column, columns);
         bound[column] = true;
     }
@@ -117,7 +117,7 @@ Solution least_squares_on_sphere(Matrix const& a, std::vector<double> const& b, 
     auto const p = static_cast<Index>(sphere.unknowns.size());
     refuse_if<BadParameter>(!(sphere.tau > 0.0) || p == 0 || sphere.form.rows != sphere.unknowns.size() ||
                                 sphere.form.columns != sphere.unknowns.size(),
-                            "solver.least_squares_on_sphere: {} unknowns with a {} x {} form and tau {}", p,
+                            "solver.least_squares_on_sphere", "{} unknowns with a {} x {} form and tau {}", p,
                             sphere.form.rows, sphere.form.columns, sphere.tau);
     MatrixXd const all = matrix_of(a);
     VectorXd const right = Eigen::Map<VectorXd const>(b.data(), static_cast<Index>(b.size()));
@@ -133,16 +133,16 @@ Solution least_squares_on_sphere(Matrix const& a, std::vector<double> const& b, 
     if (!others.empty()) {
         qr.compute(free);
         if (qr.rank() < free.cols()) {
-            throw BadInput(fmt::format("solver.least_squares_on_sphere: the {} free columns have rank {}", free.cols(),
-                                       qr.rank()));
+            throw BadInput("solver.least_squares_on_sphere",
+                           fmt::format("the {} free columns have rank {}", free.cols(), qr.rank()));
         }
         MatrixXd const explained = qr.solve(with);
         rest -= free.lazyProduct(explained);
         rest_right -= free * qr.solve(right);
     }
     Eigen::LLT<MatrixXd> const form(matrix_of(sphere.form));
-    refuse_if<BadParameter>(form.info() != Eigen::Success,
-                            "solver.least_squares_on_sphere: the form is not positive definite");
+    refuse_if<BadParameter>(form.info() != Eigen::Success, "solver.least_squares_on_sphere",
+                            "the form is not positive definite");
     // With u = L' y the condition is |u| = tau.
     auto const l = form.matrixL();
     // Lazy products: the block sizes of Eigen's other products depend on the processor's caches, and so does their
@@ -181,10 +181,10 @@ Cholesky factor(std::vector<double> matrix, std::size_t size, double ridge, Run 
     for (std::size_t k = 0; k < size; ++k) {
         run.check();
         double const pivot = matrix[k * size + k];
-        refuse_if<NotConverged>(!(pivot > 0.0),
-                                "solver.factor: the matrix of {0} x {0} numbers is not positive definite: pivot {1} is "
-                                "{2}; are two of its rows alike?",
-                                size, k, pivot);
+        refuse_if<NotConverged>(
+            !(pivot > 0.0), "solver.factor",
+            "the matrix of {0} x {0} numbers is not positive definite: pivot {1} is {2}; are two of its rows alike?",
+            size, k, pivot);
         double const root = std::sqrt(pivot);
         matrix[k * size + k] = root;
         for (std::size_t i = k + 1; i < size; ++i) {
@@ -230,15 +230,15 @@ struct SparseFactor::Factor {
 
 SparseFactor::SparseFactor(std::size_t size, std::vector<SparseEntry> const& entries)
     : factor_(std::make_unique<Factor>()) {
-    refuse_if<BadInput>(std::cmp_greater(size, std::numeric_limits<int>::max()),
-                        "solver.sparse: a matrix of {} rows; at most 2^31 - 1", size);
+    refuse_if<BadInput>(std::cmp_greater(size, std::numeric_limits<int>::max()), "solver.SparseFactor",
+                        "a matrix of {} rows; at most 2^31 - 1", size);
     std::vector<Eigen::Triplet<double>> triplets;
     triplets.reserve(entries.size());
     for (SparseEntry const& e : entries) {
-        refuse_if<BadInput>(e.column > e.row || e.row >= size || !std::isfinite(e.value),
-                            "solver.sparse: row {}, column {} of a matrix of {} rows holds {}: numbers are finite and "
-                            "not above the diagonal",
-                            e.row, e.column, size, e.value);
+        refuse_if<BadInput>(
+            e.column > e.row || e.row >= size || !std::isfinite(e.value), "solver.SparseFactor",
+            "row {}, column {} of a matrix of {} rows holds {}: numbers are finite and not above the diagonal", e.row,
+            e.column, size, e.value);
         triplets.emplace_back(static_cast<int>(e.row), static_cast<int>(e.column), e.value);
     }
     factor_->size = static_cast<Eigen::Index>(size);
@@ -249,7 +249,7 @@ SparseFactor::SparseFactor(std::size_t size, std::vector<SparseEntry> const& ent
     matrix.setFromTriplets(triplets.begin(), triplets.end());
     factor_->ldlt.compute(matrix);
     refuse_if<NotConverged>(factor_->ldlt.info() != Eigen::Success || !(factor_->ldlt.vectorD().minCoeff() > 0.0),
-                            "solver.sparse: the matrix of {} rows is not positive definite", size);
+                            "solver.SparseFactor", "the matrix of {} rows is not positive definite", size);
 }
 
 SparseFactor::SparseFactor(SparseFactor&& other) noexcept = default;
@@ -257,9 +257,8 @@ SparseFactor& SparseFactor::operator=(SparseFactor&& other) noexcept = default;
 SparseFactor::~SparseFactor() = default;
 
 std::vector<double> SparseFactor::solve(std::vector<double> const& b) const {
-    refuse_if<BadInput>(static_cast<Eigen::Index>(b.size()) != factor_->size,
-                        "solver.sparse: a right-hand side of {} numbers for a matrix of {} rows", b.size(),
-                        factor_->size);
+    refuse_if<BadInput>(static_cast<Eigen::Index>(b.size()) != factor_->size, "solver.SparseFactor",
+                        "a right-hand side of {} numbers for a matrix of {} rows", b.size(), factor_->size);
     if (b.empty()) {
         return {};
     }

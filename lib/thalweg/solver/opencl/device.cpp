@@ -115,22 +115,22 @@ std::string lines_of(std::vector<FoundDevice> const& all) {
 }
 
 FoundDevice choose(std::vector<FoundDevice> const& all) {
-    refuse_if<BadParameter>(all.empty(),
-                            "solver.opencl_device: --device opencl: no OpenCL platform with a device was found; "
-                            "install an OpenCL driver (Debian: pocl-opencl-icd) or leave --device out");
+    refuse_if<BadParameter>(all.empty(), "solver.opencl_device",
+                            "--device opencl: no OpenCL platform with a device was found; install an OpenCL driver "
+                            "(Debian: pocl-opencl-icd) or leave --device out");
     if (char const* const wanted = std::getenv(variable); wanted != nullptr) {
         for (FoundDevice const& found : all) {
             if (found.number != wanted) {
                 continue;
             }
-            refuse_if<BadParameter>(!found.fault.empty(),
-                                    "solver.opencl_device: --device opencl: {}={}, {}, cannot be used: {}", variable,
-                                    wanted, found.name, found.fault);
+            refuse_if<BadParameter>(!found.fault.empty(), "solver.opencl_device",
+                                    "--device opencl: {}={}, {}, cannot be used: {}", variable, wanted, found.name,
+                                    found.fault);
             return found;
         }
-        throw BadParameter(fmt::format(
-            "solver.opencl_device: --device opencl: {}='{}' names no device: write platform:device as in {}", variable,
-            wanted, lines_of(all)));
+        throw BadParameter("solver.opencl_device",
+                           fmt::format("--device opencl: {}='{}' names no device: write platform:device as in {}",
+                                       variable, wanted, lines_of(all)));
     }
     for (cl_device_type const type : {cl_device_type{CL_DEVICE_TYPE_GPU}, cl_device_type{CL_DEVICE_TYPE_ACCELERATOR},
                                       cl_device_type{CL_DEVICE_TYPE_CPU}, cl_device_type{CL_DEVICE_TYPE_ALL}}) {
@@ -140,8 +140,8 @@ FoundDevice choose(std::vector<FoundDevice> const& all) {
             }
         }
     }
-    throw BadParameter(fmt::format(
-        "solver.opencl_device: --device opencl: no device can be used: {}; leave --device out", lines_of(all)));
+    throw BadParameter("solver.opencl_device",
+                       fmt::format("--device opencl: no device can be used: {}; leave --device out", lines_of(all)));
 }
 
 std::string build_log(cl_program program, cl_device_id device) {
@@ -168,8 +168,9 @@ cl_program build(OpenClDevice const& device, std::string const& stage, std::stri
     if (code != CL_SUCCESS) {
         std::string const log = program == nullptr ? "" : build_log(program, id);
         clReleaseProgram(program);
-        throw IoError(fmt::format("{}: the OpenCL device {} does not compile the kernels: {}; leave --device out\n{}",
-                                  stage, device.name, opencl_error_name(code), log));
+        throw IoError(stage,
+                      fmt::format("the OpenCL device {} does not compile the kernels: {}; leave --device out\n{}",
+                                  device.name, opencl_error_name(code), log));
     }
     return program;
 }
@@ -215,9 +216,9 @@ OpenClDevice const& opencl_device() {
     cl_int code = CL_SUCCESS;
     cl_context const context = clCreateContext(properties.data(), 1, &found.id, nullptr, nullptr, &code);
     if (code != CL_SUCCESS) {
-        throw IoError(
-            fmt::format("solver.opencl_device: --device opencl: {} cannot create a context: {}; leave --device out",
-                        found.name, opencl_error_name(code)));
+        throw IoError("solver.opencl_device",
+                      fmt::format("--device opencl: {} cannot create a context: {}; leave --device out", found.name,
+                                  opencl_error_name(code)));
     }
     OpenClDevice device;
     device.device = found.id;
@@ -257,11 +258,11 @@ void check_device_memory(OpenClDevice const& device, char const* stage, std::int
         return;
     }
     auto const gigabytes = [](std::int64_t b) { return static_cast<double>(b) / 1e9; };
-    throw IoError(
-        fmt::format("{}: the grid needs {:.1f} GB in blocks of up to {:.1f} GB on the OpenCL device {}, which "
-                    "has {:.1f} GB in blocks of up to {:.1f} GB: make the grid smaller or leave --device out",
-                    stage, gigabytes(bytes), gigabytes(largest_bytes), device.name, gigabytes(device.memory_bytes),
-                    gigabytes(device.largest_block_bytes)));
+    throw IoError(stage,
+                  fmt::format("the grid needs {:.1f} GB in blocks of up to {:.1f} GB on the OpenCL device {}, which "
+                              "has {:.1f} GB in blocks of up to {:.1f} GB: make the grid smaller or leave --device out",
+                              gigabytes(bytes), gigabytes(largest_bytes), device.name, gigabytes(device.memory_bytes),
+                              gigabytes(device.largest_block_bytes)));
 }
 
 DeviceQueue::DeviceQueue(char const* stage, std::string_view source)
@@ -278,8 +279,8 @@ DeviceQueue::DeviceQueue(char const* stage, std::string_view source)
 
 void DeviceQueue::check(int code, std::string_view what) const {
     if (code != CL_SUCCESS) {
-        throw IoError(fmt::format("{}: the OpenCL device {} failed at {}: {}; leave --device out", stage_,
-                                  device_->name, what, opencl_error_name(code)));
+        throw IoError(stage_, fmt::format("the OpenCL device {} failed at {}: {}; leave --device out", device_->name,
+                                          what, opencl_error_name(code)));
     }
 }
 

@@ -9,8 +9,9 @@ namespace thalweg::solver {
 namespace {
 
 [[noreturn]] void refuse_opencl() {
-    throw BadParameter("solver.opencl_device: --device opencl: this thalweg was built without OpenCL; install "
-                       "ocl-icd-opencl-dev and opencl-headers and build again, or leave --device out");
+    throw BadParameter("solver.opencl_device",
+                       "--device opencl: this thalweg was built without OpenCL; install ocl-icd-opencl-dev and "
+                       "opencl-headers and build again, or leave --device out");
 }
 
 } // namespace

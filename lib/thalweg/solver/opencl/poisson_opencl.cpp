@@ -529,19 +529,19 @@ GridSolution iterate(DeviceEquations& equations, double height, PoissonParams co
                     solution.residual = norm;
                     return solution;
                 }
-                refuse_if<NotConverged>(norm > 0.5 * counted,
-                                        "{}: the residual stays at {:.3g} of what it was, where double has no more "
-                                        "digits; a tolerance of {:.3g} is out of reach",
-                                        poisson_stage, norm, params.tolerance);
+                refuse_if<NotConverged>(norm > 0.5 * counted, poisson_stage,
+                                        "the residual stays at {:.3g} of what it was, where double has no more digits; "
+                                        "a tolerance of {:.3g} is out of reach",
+                                        norm, params.tolerance);
                 counted = norm;
                 equations.begin_anew();
                 equations.precondition();
             }
         }
-        refuse_if<NotConverged>(solution.iterations >= params.most_iterations,
-                                "{}: after {} iterations the residual is {:.3g} of what it was instead of {:.3g}; ask "
-                                "for less or allow more of them",
-                                poisson_stage, solution.iterations, norm, params.tolerance);
+        refuse_if<NotConverged>(solution.iterations >= params.most_iterations, poisson_stage,
+                                "after {} iterations the residual is {:.3g} of what it was instead of {:.3g}; ask for "
+                                "less or allow more of them",
+                                solution.iterations, norm, params.tolerance);
         norm = equations.advance();
     }
 }

@@ -292,16 +292,17 @@ std::int64_t around(std::int64_t cells, double reach_cells) {
 
 void check(std::int64_t width, std::int64_t height, double hurst) {
     require_in("solver.fractional_surface", "H", hurst, Range::inside(0.0, 1.0));
-    refuse_if<BadParameter>(width < 1 || height < 1,
-                            "solver.fractional_surface: a lattice of {} x {} cells; give one cell at least", width,
-                            height);
+    refuse_if<BadParameter>(width < 1 || height < 1, "solver.fractional_surface",
+                            "a lattice of {} x {} cells; give one cell at least", width, height);
 }
 
 [[noreturn]] void refuse_size(std::int64_t width, std::int64_t height) {
-    throw BadParameter(fmt::format("solver.fractional_surface: {} x {} cells are too many for an exact fractional "
-                                   "Brownian surface: the torus around their diagonal has more than 2^31 cells; choose "
-                                   "fewer cells, or midpoint displacement with a stencil of 16",
-                                   width, height));
+    throw BadParameter(
+        "solver.fractional_surface",
+        fmt::format(
+            "{} x {} cells are too many for an exact fractional Brownian surface: the torus around their diagonal has "
+            "more than 2^31 cells; choose fewer cells, or midpoint displacement with a stencil of 16",
+            width, height));
 }
 
 struct TorusFrame {

@@ -267,7 +267,7 @@ DrawnLine line_on_land(DrawResult& result, DrawnLine const& points, char const* 
     CoastIndex coasts(drawing.coasts);
     std::vector<DrawnLine> const parts = parts_on_land(coasts, line, drawing.grid.cell_m, false);
     if (parts.empty()) {
-        throw NotDrawn(fmt::format("studio.drawing: this lies in the sea: {}s run on land", what), line.front());
+        throw NotDrawn("studio.drawn", fmt::format("this lies in the sea: {}s run on land", what), line.front());
     }
     DrawnLine longest = *std::ranges::max_element(parts, {}, length_of);
     double const cut_m = length_of(line) - length_of(longest);
@@ -287,7 +287,7 @@ void require_apart_from_coasts(Drawing const& drawing, DrawnLine const& line) {
                 refuse_step_if(segments_cross(coast[i], coast[i + 1], line[k], line[k + 1]) ||
                                    distance_to_segment(coast[i], coast[i + 1], line[k]) < near_m ||
                                    distance_to_segment(line[k], line[k + 1], coast[i]) < near_m,
-                               "studio.drawing: the coast would cross another one here", line[k]);
+                               "the coast would cross another one here", line[k]);
             }
         }
     }
@@ -327,8 +327,7 @@ void apply_step(DrawResult& result, DrawCoast const& step) {
     result.name = "a coast";
     Drawing& drawing = result.drawing;
     Grid const& grid = drawing.grid;
-    refuse_step_if(drawing.has_side_streams,
-                   "studio.drawing: rivers with side streams know no coast: turn side streams off first");
+    refuse_step_if(drawing.has_side_streams, "rivers with side streams know no coast: turn side streams off first");
     DrawnLine line = line_from_stroke(grid, step.points);
     double const apart_m = distance(line.front(), line.back());
     constexpr double gap_share = 0.15; // a gap of this share of the line is closed

@@ -51,17 +51,17 @@ DrawnLine clip_stroke(Grid const& grid, DrawnLine points) {
     constexpr std::size_t most = 100000;
     constexpr double most_cells = 50000.0;
     if (points.size() > most) {
-        throw NotDrawn(fmt::format("studio.drawing: a line has at most {} points", most));
+        throw NotDrawn("studio.drawn", fmt::format("a line has at most {} points", most));
     }
     for (Vec2& p : points) {
-        refuse_step_if(!is_finite(p), "studio.drawing: a place that is not a number");
+        refuse_step_if(!is_finite(p), "a place that is not a number");
         p = clip_to_grid(grid, p);
     }
     points = remove_repeats(std::move(points));
-    refuse_step_if(points.size() < 2, "studio.drawing: a line has two places at least",
+    refuse_step_if(points.size() < 2, "a line has two places at least",
                    points.empty() ? std::nullopt : std::optional(points.front()));
     if (length_of(points) > most_cells * grid.cell_m) {
-        throw NotDrawn(fmt::format("studio.drawing: a line is at most {:.0f} cells long; draw it in parts", most_cells),
+        throw NotDrawn("studio.drawn", fmt::format("a line is at most {:.0f} cells long; draw it in parts", most_cells),
                        points.front());
     }
     return points;
@@ -120,7 +120,7 @@ DrawnLine longest_part_in_grid(Grid const& grid, DrawnLine const& points) {
 DrawnLine line_from_stroke(Grid const& grid, DrawnLine points) {
     DrawnLine line = smooth_line(clip_stroke(grid, std::move(points)), grid.cell_m);
     if (line.size() < 2 || length_of(line) < least_length_cells * grid.cell_m) {
-        throw NotDrawn(fmt::format("studio.drawing: this line is shorter than {} cells", least_length_cells),
+        throw NotDrawn("studio.drawn", fmt::format("this line is shorter than {} cells", least_length_cells),
                        line.front());
     }
     return line;
@@ -182,7 +182,7 @@ void require_no_loop(DrawnLine const& line, bool is_closed, double cell_m) {
     geometry::SegmentIndex const index = index_segments(line);
     for (std::size_t k = 1; k < segments; ++k) {
         for (std::size_t const i : index.near(line[k], line[k + 1], near_m)) {
-            refuse_step_if(i < k && meet(i, k), "studio.drawing: the line crosses itself here", line[k]);
+            refuse_step_if(i < k && meet(i, k), "the line crosses itself here", line[k]);
         }
     }
 }
@@ -190,7 +190,7 @@ void require_no_loop(DrawnLine const& line, bool is_closed, double cell_m) {
 void require_area(DrawnLine const& line, double cell_m) {
     constexpr double least_cells = 9.0;
     if (line.size() < 4 || std::fabs(geometry::signed_area(line)) < least_cells * cell_m * cell_m) {
-        throw NotDrawn(fmt::format("studio.drawing: this area has fewer than {} cells", least_cells), line.front());
+        throw NotDrawn("studio.drawn", fmt::format("this area has fewer than {} cells", least_cells), line.front());
     }
 }
 

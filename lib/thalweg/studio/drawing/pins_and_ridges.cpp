@@ -24,14 +24,14 @@ DrawnPin& require_pin(Drawing& drawing, std::size_t number) {
 /// \param moved number of a pin that is moved; none for a new one
 Vec2 require_pin_place(Drawing const& drawing, Vec2 wanted, std::size_t moved) {
     Grid const& grid = drawing.grid;
-    refuse_step_if(!is_finite(wanted), "studio.drawing: a place that is not a number");
+    refuse_step_if(!is_finite(wanted), "a place that is not a number");
     Vec2 const at = clip_to_grid(grid, wanted);
-    refuse_step_if(lies_in_sea(drawing, at), "studio.drawing: this place lies in the sea: a pin stands on land", at);
+    refuse_step_if(lies_in_sea(drawing, at), "this place lies in the sea: a pin stands on land", at);
     refuse_step_if(nearest_on_rivers(drawing, at, no_number, in_river_cells * grid.cell_m).river != no_number,
-                   "studio.drawing: a river runs here, and its height decides: set the pin beside it", at);
+                   "a river runs here, and its height decides: set the pin beside it", at);
     for (std::size_t i = 0; i < drawing.pins.size(); ++i) {
         refuse_step_if(i != moved && grid.cell_of(drawing.pins[i].at) == grid.cell_of(at),
-                       "studio.drawing: there is a pin in this cell already: set its height", at);
+                       "there is a pin in this cell already: set its height", at);
     }
     return at;
 }
@@ -74,8 +74,7 @@ DrawnLine cut_ridge_at_rivers(DrawResult& result, DrawnLine line) {
     }
     double const lost_m = length_of(line) - length_of(longest);
     refuse_step_if(length_of(longest) < least_length_cells * cell_m || lost_m > most_lost * length_of(line),
-                   "studio.drawing: the ridge would cross or touch a river here: let it end short of it",
-                   places[first]);
+                   "the ridge would cross or touch a river here: let it end short of it", places[first]);
     result.said.push_back(fmt::format("the ridge ends short of the river: {:.3g} km were left out", lost_m / 1e3));
     return round_line(geometry::simplify(longest, straight_cells * cell_m));
 }

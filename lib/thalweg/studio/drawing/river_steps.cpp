@@ -53,7 +53,7 @@ RiverEnd find_river_end(Drawing const& drawing, Vec2 p, std::size_t left_out) {
 bool is_drawn_upstream(RiverEnd const& begin, RiverEnd const& end) {
     auto const can_begin = [](RiverEnd const& e) { return e.meets != RiverEnd::Meets::river || e.continues; };
     refuse_step_if(!can_begin(begin) && !can_begin(end),
-                   "studio.drawing: a river cannot flow out of another one: water has one way down. Let one end "
+                   "a river cannot flow out of another one: water has one way down. Let one end "
                    "lie apart, or begin where a river ends",
                    begin.at);
     if (can_begin(begin) != can_begin(end)) {
@@ -65,15 +65,15 @@ bool is_drawn_upstream(RiverEnd const& begin, RiverEnd const& end) {
 
 void require_type(std::string const& type, int lambda) {
     constexpr int most = 50;
-    refuse_if<BadParameter>(!type.empty() && !rosgen_of(type),
-                            "studio.drawing: {} is no river type: Aa+, A, B, C, D, DA, E, F and G are", type);
-    refuse_if<BadParameter>(lambda < 0 || lambda > most, "studio.drawing: lambda = {} is outside [1, {}]", lambda,
+    refuse_if<BadParameter>(!type.empty() && !rosgen_of(type), "studio.drawn",
+                            "{} is no river type: Aa+, A, B, C, D, DA, E, F and G are", type);
+    refuse_if<BadParameter>(lambda < 0 || lambda > most, "studio.drawn", "lambda = {} is outside [1, {}]", lambda,
                             most);
 }
 
 std::size_t require_river(Drawing const& drawing, std::size_t river) {
     if (river >= drawing.rivers.size()) {
-        throw NotDrawn(fmt::format("studio.drawing: there is no river {}", river));
+        throw NotDrawn("studio.drawn", fmt::format("there is no river {}", river));
     }
     return river;
 }
@@ -83,9 +83,9 @@ std::size_t require_river(Drawing const& drawing, std::size_t river) {
 void extend_river(Drawing& drawing, std::size_t river, Vec2 to, std::size_t into) {
     double const cell_m = drawing.grid.cell_m;
     refuse_step_if(into != no_number && river != into && flows_through(downstream_vertices(drawing), into, river),
-                   "studio.drawing: the river would flow in a circle", to);
+                   "the river would flow in a circle", to);
     DrawnLine& line = drawing.rivers[river].line;
-    refuse_step_if(line.back() == to, "studio.drawing: it lies there already", to);
+    refuse_step_if(line.back() == to, "it lies there already", to);
     if (distance(line.back(), to) <= snap_cells * cell_m && line.size() > 2 &&
         !meets_other_river(drawing, river, line.back())) {
         snap_end(line, to, cell_m);
@@ -103,7 +103,7 @@ void join_river_end(DrawResult& result, std::size_t river, bool at_source, River
     result.name = is_joined ? "rivers joined" : "a river carried on";
     if (is_joined && at_source) {
         refuse_step_if(!end.continues,
-                       "studio.drawing: a river cannot flow out of another one: water has one way down. Its "
+                       "a river cannot flow out of another one: water has one way down. Its "
                        "source can only be joined to where a river ends",
                        end.at);
         extend_river(drawing, end.spot.river, drawing.rivers[river].line.front(), river);
@@ -129,8 +129,8 @@ void shorten_above_cut(Drawing const& drawing, std::size_t river, DrawnLine& lin
             line.back() = rounded(end + (gap_m / step_m) * (before - end));
             return;
         }
-        refuse_step_if(meets_other_river(drawing, river, before),
-                       "studio.drawing: a river joins too near above: cut elsewhere", before);
+        refuse_step_if(meets_other_river(drawing, river, before), "a river joins too near above: cut elsewhere",
+                       before);
         line.pop_back();
         gap_m -= step_m;
     }
@@ -184,7 +184,7 @@ void drag_river_vertex(Drawing& drawing, std::size_t river, std::size_t vertex, 
         DrawnLine& line = drawing.rivers[r].line;
         std::size_t const count = line.size();
         line = remove_repeats(std::move(line));
-        refuse_step_if(line.size() < 2, "studio.drawing: nothing would be left of a river here", to);
+        refuse_step_if(line.size() < 2, "nothing would be left of a river here", to);
         require_no_loop(line, false, drawing.grid.cell_m);
         bool const is_own = r == river && line.size() == count;
         std::size_t const begin = is_own && dragged.first > 0 ? dragged.first - 1 : 0;
@@ -210,7 +210,7 @@ void apply_step(DrawResult& result, DrawRiver const& step) {
     }
     refuse_step_if(begin.spot.river != no_number && end.spot.river != no_number &&
                        flows_through(downstream_vertices(drawing), end.spot.river, begin.spot.river),
-                   "studio.drawing: the river would flow in a circle", end.at);
+                   "the river would flow in a circle", end.at);
     if (end.meets != RiverEnd::Meets::nothing) {
         snap_end(line, end.spot.river == no_number ? end.at : add_vertex(drawing, end.spot), cell_m);
     }
@@ -220,7 +220,7 @@ void apply_step(DrawResult& result, DrawRiver const& step) {
         std::ranges::reverse(line);
     }
     if (length_of(line) < least_length_cells * cell_m) {
-        throw NotDrawn(fmt::format("studio.drawing: the river would be shorter than {} cells", least_length_cells),
+        throw NotDrawn("studio.drawn", fmt::format("the river would be shorter than {} cells", least_length_cells),
                        line.back());
     }
     drawing.rivers.push_back({std::move(line), step.type, step.lambda});
@@ -250,7 +250,7 @@ void move_river_vertex(DrawResult& result, MoveVertex const& step) {
         }
         to = rounded(end.at);
     }
-    refuse_step_if(lies_in_sea(drawing, to), "studio.drawing: this place lies in the sea", to);
+    refuse_step_if(lies_in_sea(drawing, to), "this place lies in the sea", to);
     drag_river_vertex(drawing, river, step.vertex, to, step.reach_m);
 }
 
@@ -267,7 +267,7 @@ void apply_step(DrawResult& result, CutRiver const& step) {
     DrawnLine lower(middle, whole.end());
     double const least_m = least_length_cells * cell_m;
     refuse_step_if(length_of(lower) < least_m || length_of(upper) < least_m + gap_cells * cell_m,
-                   "studio.drawing: too near to its end to be cut", at);
+                   "too near to its end to be cut", at);
     shorten_above_cut(drawing, river, upper, gap_cells * cell_m);
     drawing.rivers[river].line = std::move(lower);
     DrawnRiver above = drawing.rivers[river];
@@ -280,8 +280,8 @@ void apply_step(DrawResult& result, JoinRiver const& step) {
     std::size_t const river = require_river(drawing, step.river);
     DrawnLine const& line = drawing.rivers[river].line;
     Vec2 const end = step.at_source ? line.front() : line.back();
-    refuse_step_if(meets_other_river(drawing, river, end),
-                   "studio.drawing: this end meets another river already: cut it off first", end);
+    refuse_step_if(meets_other_river(drawing, river, end), "this end meets another river already: cut it off first",
+                   end);
     join_river_end(result, river, step.at_source, find_river_end(drawing, clip_to_grid(drawing.grid, step.at), river));
 }
 
@@ -349,7 +349,7 @@ void apply_step(DrawResult& result, SetLambda const& step) {
 void apply_step(DrawResult& result, SetSideStreams const& step) {
     result.name = step.on ? "with side streams" : "without side streams";
     refuse_step_if(step.on && !result.drawing.coasts.empty(),
-                   "studio.drawing: rivers with side streams know no coast: erase the coasts, or draw the side "
+                   "rivers with side streams know no coast: erase the coasts, or draw the side "
                    "streams yourself");
     result.drawing.has_side_streams = step.on;
 }

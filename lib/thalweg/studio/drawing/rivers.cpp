@@ -64,7 +64,7 @@ void require_no_crossing(Drawing const& drawing, std::size_t river, DrawnLine co
             continue;
         }
         if (auto const at = first_crossing(changed, index, drawing.rivers[r].line)) {
-            throw NotDrawn("studio.drawing: the river would cross another one here; let it end there instead", at);
+            throw NotDrawn("studio.drawn", "the river would cross another one here; let it end there instead", at);
         }
     }
 }
@@ -83,10 +83,11 @@ void require_distance(Drawing const& drawing, std::size_t river, PlaceIndex cons
             joints = joints ? joints : shared_vertices(drawing.rivers[river].line, other);
             double const along_m = distance_to_nearest(*joints, p);
             if (distance_m < std::min(index.near_m, widening * along_m) && along_m >= drawing.grid.cell_m) {
-                throw NotDrawn(fmt::format("studio.drawing: it comes too near to another river here: keep {} cells "
-                                           "apart, or let it end there",
-                                           index.near_m / drawing.grid.cell_m),
-                               p);
+                throw NotDrawn(
+                    "studio.drawn",
+                    fmt::format("it comes too near to another river here: keep {} cells apart, or let it end there",
+                                index.near_m / drawing.grid.cell_m),
+                    p);
             }
         });
     }
@@ -213,13 +214,12 @@ void require_clear(Drawing const& drawing, std::size_t river, std::size_t first,
     DrawnLine const places = resample_line(changed, sampling_cells * cell_m);
     CoastIndex coasts(drawing.coasts);
     for (Vec2 const p : places) {
-        refuse_step_if(lies_in_sea(coasts.nearest(p), cell_m),
-                       "studio.drawing: the river would run through the sea here", p);
+        refuse_step_if(lies_in_sea(coasts.nearest(p), cell_m), "the river would run through the sea here", p);
     }
     if (auto const at = first_near_lines(places, drawing.ridges, 0.5 * clearance_cells * cell_m)) {
-        throw NotDrawn("studio.drawing: the river would cross or touch a ridge here: no water crosses it. Move or "
-                       "erase the ridge first",
-                       at);
+        throw NotDrawn(
+            "studio.drawn",
+            "the river would cross or touch a ridge here: no water crosses it. Move or erase the ridge first", at);
     }
     require_no_crossing(drawing, river, changed);
     require_distance(drawing, river, {places, clear_cells * cell_m});
@@ -230,8 +230,7 @@ void require_no_circle(Drawing const& drawing) {
     std::vector<std::size_t> seen(below.size(), no_number); // from which river first
     for (std::size_t r = 0; r < below.size(); ++r) {
         for (std::size_t at = r; at != no_number && (seen[at] == no_number || seen[at] == r); at = below[at].river) {
-            refuse_step_if(seen[at] == r, "studio.drawing: the river would flow in a circle",
-                           drawing.rivers[at].line.back());
+            refuse_step_if(seen[at] == r, "the river would flow in a circle", drawing.rivers[at].line.back());
             seen[at] = r;
         }
     }

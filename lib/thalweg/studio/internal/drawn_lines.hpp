@@ -31,7 +31,7 @@ struct BeforeInPlan {
 
 inline void refuse_step_if(bool is_wrong, char const* words, std::optional<Vec2> at = std::nullopt) {
     if (is_wrong) {
-        throw NotDrawn(words, at);
+        throw NotDrawn("studio.drawn", words, at);
     }
 }
 

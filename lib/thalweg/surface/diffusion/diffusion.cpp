@@ -107,11 +107,10 @@ constexpr double noise_reach_cells = 4.0;
 void require(DiffuseParams const& params) {
     constexpr char const* self = "surface.diffuse";
     require_in(self, "tolerance", params.tolerance, Range::inside(0.0, 1.0));
-    refuse_if<BadParameter>(
-        !(params.alpha > 0.0 && params.alpha <= 0.25),
-        "surface.diffuse: alpha is {}; give one above 0 and at most 1/4: beyond it a cell takes more from its four "
-        "neighbours than the difference, and differences grow from sweep to sweep",
-        params.alpha);
+    refuse_if<BadParameter>(!(params.alpha > 0.0 && params.alpha <= 0.25), "surface.diffuse",
+                            "alpha is {}; give one above 0 and at most 1/4: beyond it a cell takes more from its four "
+                            "neighbours than the difference, and differences grow from sweep to sweep",
+                            params.alpha);
     require_in(self, "iterations", params.iterations, Range::at_least(0));
     require_in(self, "passes", params.passes, Range::at_least(0));
     require_in(self, "sigma", params.sigma_cells, Range::between(0.0, 100.0), "cells");
@@ -169,8 +168,7 @@ void add_noise(Raster<std::uint8_t> const& kind, Raster<float> const& z, Diffuse
 solver::GridProblem problem_through(Raster<float> const& z, Mask const& inside, char const* stage, Run const& run) {
     Grid const& grid = z.grid();
     if (inside.cells() > 0) {
-        require_same_grid(inside.grid(), grid, std::string(stage) + ": the mask and the heights",
-                          "make both on one grid");
+        require_same_grid(inside.grid(), grid, stage, "the mask and the heights", "make both on one grid");
     }
     run.check();
     solver::GridProblem problem{Raster<std::uint8_t>(grid), Raster<double>(grid), {}};
@@ -181,17 +179,17 @@ solver::GridProblem problem_through(Raster<float> const& z, Mask const& inside, 
         if (kind == CellKind::fixed) {
             if (std::isinf(z[i])) {
                 Cell const c = grid.at(i);
-                throw BadInput(
-                    fmt::format("{}: an infinite height at column {}, row {}; give finite ones", stage, c.col, c.row));
+                throw BadInput(stage,
+                               fmt::format("an infinite height at column {}, row {}; give finite ones", c.col, c.row));
             }
             problem.value[i] = static_cast<double>(z[i]);
             any = true;
         }
     }
-    refuse_if<BadInput>(!any,
-                        "{}: no cell of the {} x {} (inside the mask, where there is one) has a height; a surface "
-                        "needs one to pass through",
-                        stage, grid.width, grid.height);
+    refuse_if<BadInput>(!any, stage,
+                        "no cell of the {} x {} (inside the mask, where there is one) has a height; a surface needs "
+                        "one to pass through",
+                        grid.width, grid.height);
     for (solver::CellSpan const& span : solver::unreached(problem.kind, run)) {
         for (std::int64_t col = span.begin; col < span.end; ++col) {
             problem.kind[{col, span.row}] = solver::outside_cell;

@@ -20,9 +20,9 @@ namespace {
 
 // \throws BadInput when the grid has no cells or its cell size is not above 0.
 void check_frame(Grid const& grid) {
-    refuse_if<BadInput>(grid.cells() <= 0, "surface.dilate: the valley's grid has no cells; make it at least 1 x 1");
-    refuse_if<BadInput>(!(grid.cell_m > 0.0 && std::isfinite(grid.cell_m)),
-                        "surface.dilate: the valley's cell size is {} m; give one above 0", grid.cell_m);
+    refuse_if<BadInput>(grid.cells() <= 0, "surface.dilate", "the valley's grid has no cells; make it at least 1 x 1");
+    refuse_if<BadInput>(!(grid.cell_m > 0.0 && std::isfinite(grid.cell_m)), "surface.dilate",
+                        "the valley's cell size is {} m; give one above 0", grid.cell_m);
 }
 
 // \throws BadInput when no cell of the valley has a height, or one is infinite.
@@ -32,23 +32,24 @@ void check_heights(Raster<float> const& valley) {
     for (std::int64_t i = 0; i < valley.cells(); ++i) {
         if (std::isinf(valley[i])) {
             Cell const cell = grid.at(i);
-            throw BadInput(fmt::format("surface.dilate: infinite height in the valley at column {}, row {}; "
-                                       "every river needs finite heights",
-                                       cell.col, cell.row));
+            throw BadInput(
+                "surface.dilate",
+                fmt::format("infinite height in the valley at column {}, row {}; every river needs finite heights",
+                            cell.col, cell.row));
         }
         wet = wet || !std::isnan(valley[i]);
     }
-    refuse_if<BadInput>(!wet,
-                        "surface.dilate: no cell of the valley has a height on the grid of {} x {} cells (inside the "
-                        "mask, where there is one); let a river run there",
+    refuse_if<BadInput>(!wet, "surface.dilate",
+                        "no cell of the valley has a height on the grid of {} x {} cells (inside the mask, where there "
+                        "is one); let a river run there",
                         grid.width, grid.height);
 }
 
 // \throws BadInput when the mask has another frame than the valley.
 void check_mask(Grid const& valley, Grid const& mask) {
-    refuse_if<BadInput>(valley != mask,
-                        "surface.dilate: the mask ({} x {} cells of {} m) has another frame than the valley ({} x {} "
-                        "cells of {} m); make both on one grid",
+    refuse_if<BadInput>(valley != mask, "surface.dilate",
+                        "the mask ({} x {} cells of {} m) has another frame than the valley ({} x {} cells of {} m); "
+                        "make both on one grid",
                         mask.width, mask.height, mask.cell_m, valley.width, valley.height, valley.cell_m);
 }
 
@@ -88,9 +89,8 @@ constexpr float nan_height = std::numeric_limits<float>::quiet_NaN();
 
 void check_dilate_params(DilateParams const& params) {
     refuse_if<BadParameter>(
-        !(params.relief_m >= 0.0 && std::isfinite(params.relief_m)),
-        "surface.dilate: relief is {} m; give a finite height above 0, or 0 for the units of Cao, Long and Lü (2009)",
-        params.relief_m);
+        !(params.relief_m >= 0.0 && std::isfinite(params.relief_m)), "surface.dilate",
+        "relief is {} m; give a finite height above 0, or 0 for the units of Cao, Long and Lü (2009)", params.relief_m);
     increments(0, params.increment); // reject unreadable expressions before the work
 }
 
@@ -100,10 +100,12 @@ double metres_per_unit(double top, DilateParams const& params, Grid const& grid)
         return grid.cell_m;
     }
     if (!(top > 0.0)) {
-        throw BadParameter(fmt::format(
-            "surface.dilate: the increments{} never rise above the valley, so no factor gives "
-            "a relief of {} m; choose others, or relief 0",
-            params.increment.function ? "" : fmt::format(" '{}'", params.increment.increment), params.relief_m));
+        throw BadParameter(
+            "surface.dilate",
+            fmt::format("the increments{} never rise above the valley, so no factor gives a relief of {} m; choose "
+                        "others, or relief 0",
+                        params.increment.function ? "" : fmt::format(" '{}'", params.increment.increment),
+                        params.relief_m));
     }
     return params.relief_m / top;
 }
@@ -113,7 +115,7 @@ void check_reach(std::vector<double> const& above_valley, double greatest) {
     for (std::size_t d = 0; d < above_valley.size(); ++d) {
         refuse_if<BadParameter>(
             !(std::fabs(above_valley[d]) + greatest < static_cast<double>(std::numeric_limits<float>::max())),
-            "surface.dilate: heights pass what a float holds after {} dilations; choose smaller increments", d);
+            "surface.dilate", "heights pass what a float holds after {} dilations; choose smaller increments", d);
     }
 }
 
@@ -278,7 +280,7 @@ template <class Level> Expansion expand_as(Valley const& valley, Run const& run)
 
 /// The same valley at height 0: dilating it gives H(d) alone.
 Valley levelled(Valley const& valley, Raster<float> const& base) {
-    require_same_grid(base.grid(), valley.z.grid(), "surface.dilate_over: the base and the valley",
+    require_same_grid(base.grid(), valley.z.grid(), "surface.dilate_over", "the base and the valley",
                       "lay the base on the valley's grid");
     Valley level = valley;
     for (float& z : level.z.values()) {

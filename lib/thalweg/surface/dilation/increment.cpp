@@ -41,7 +41,7 @@ std::string const choices =
     if (hint.empty() && !why.empty()) {
         hint = fmt::format(" As an expression: {}.", why);
     }
-    throw BadParameter(fmt::format("surface.increments: '{}' is not an increment.{} {}", text, hint, choices));
+    throw BadParameter("surface.increments", fmt::format("'{}' is not an increment.{} {}", text, hint, choices));
 }
 
 bool assigns(std::string_view text) {
@@ -74,23 +74,23 @@ std::vector<double> values_of(At const& at, std::string_view name, std::string_v
     std::vector<double> values(static_cast<std::size_t>(levels));
     for (std::size_t i = 0; i < values.size(); ++i) {
         double const value = at(static_cast<double>(i + 1));
-        refuse_if<BadParameter>(!std::isfinite(value),
-                                "surface.increments: {} is not finite at x = {}; choose {} that is, for x = 1 to {}",
-                                name, i + 1, another, levels);
+        refuse_if<BadParameter>(!std::isfinite(value), "surface.increments",
+                                "{} is not finite at x = {}; choose {} that is, for x = 1 to {}", name, i + 1, another,
+                                levels);
         values[i] = tamed(value);
     }
     return values;
 }
 
 std::vector<double> tabulate(std::string const& text, std::int64_t levels) {
-    refuse_if<BadParameter>(text.size() > longest_expression,
-                            "surface.increments: the expression has {} characters; write it in at most {}", text.size(),
+    refuse_if<BadParameter>(text.size() > longest_expression, "surface.increments",
+                            "the expression has {} characters; write it in at most {}", text.size(),
                             longest_expression);
     auto const odd = std::find_if(text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; });
     if (odd != text.end()) {
-        throw BadParameter(
-            fmt::format("surface.increments: character {} of the expression is not printable ASCII; use {}",
-                        odd - text.begin() + 1, choices));
+        throw BadParameter("surface.increments",
+                           fmt::format("character {} of the expression is not printable ASCII; use {}",
+                                       odd - text.begin() + 1, choices));
     }
     if (assigns(text)) {
         refuse(text, "it assigns; compare with ==");
@@ -155,7 +155,7 @@ std::function<double(double)> anywhere(IncrementParams const& params) {
 } // namespace
 
 std::vector<double> increments(std::int64_t levels, IncrementParams const& params) {
-    refuse_if<BadParameter>(levels < 0, "surface.increments: {} levels; ask for none or more", levels);
+    refuse_if<BadParameter>(levels < 0, "surface.increments", "{} levels; ask for none or more", levels);
     std::vector<double> values = signed_increments(levels, params);
     if (!params.allow_negative) {
         for (double& value : values) {

@@ -53,51 +53,49 @@ void check_params(EquilibriumParams const& params) {
 
 void check_grid(Grid const& grid) {
     constexpr std::int64_t most = std::int64_t{1} << 30; // cells are numbered in 32 bits, the frame included
-    refuse_if<BadInput>(grid.width <= 0 || grid.height <= 0,
-                        "surface.equilibrium: the rivers' grid has no cells; make it at least 1 x 1");
-    refuse_if<BadInput>(grid.width > most || grid.height > most || grid.cells() > most,
-                        "surface.equilibrium: the grid of {} x {} cells is too large; {} cells at most", grid.width,
-                        grid.height, most);
-    refuse_if<BadInput>(!(grid.cell_m > 0.0 && std::isfinite(grid.cell_m)),
-                        "surface.equilibrium: the rivers' cell size is {} m; give one above 0", grid.cell_m);
+    refuse_if<BadInput>(grid.width <= 0 || grid.height <= 0, "surface.equilibrium",
+                        "the rivers' grid has no cells; make it at least 1 x 1");
+    refuse_if<BadInput>(grid.width > most || grid.height > most || grid.cells() > most, "surface.equilibrium",
+                        "the grid of {} x {} cells is too large; {} cells at most", grid.width, grid.height, most);
+    refuse_if<BadInput>(!(grid.cell_m > 0.0 && std::isfinite(grid.cell_m)), "surface.equilibrium",
+                        "the rivers' cell size is {} m; give one above 0", grid.cell_m);
 }
 
 void check_order(Channels const& rivers) {
     Grid const& grid = rivers.grid;
-    refuse_if<BadInput>(rivers.cell.empty(),
-                        "surface.equilibrium: there are no rivers; give at least one cell in which water leaves");
+    refuse_if<BadInput>(rivers.cell.empty(), "surface.equilibrium",
+                        "there are no rivers; give at least one cell in which water leaves");
     refuse_if<BadInput>(
         rivers.receiver.size() != rivers.cell.size() || (!rivers.z.empty() && rivers.z.size() != rivers.cell.size()) ||
             (!rivers.level.empty() && rivers.level.size() != rivers.cell.size()) ||
             (!rivers.lake_z.empty() && rivers.lake_z.size() != rivers.cell.size()),
-        "surface.equilibrium: {} river cells have {} receivers, {} heights, {} marks and {} levels of lakes; give one "
-        "each",
+        "surface.equilibrium",
+        "{} river cells have {} receivers, {} heights, {} marks and {} levels of lakes; give one each",
         rivers.cell.size(), rivers.receiver.size(), rivers.z.size(), rivers.level.size(), rivers.lake_z.size());
     Mask taken(grid);
     for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
         std::int64_t const cell = rivers.cell[n];
-        refuse_if<BadInput>(cell < 0 || cell >= grid.cells(),
-                            "surface.equilibrium: river cell {} lies at index {}, outside the grid of {} cells", n,
-                            cell, grid.cells());
+        refuse_if<BadInput>(cell < 0 || cell >= grid.cells(), "surface.equilibrium",
+                            "river cell {} lies at index {}, outside the grid of {} cells", n, cell, grid.cells());
         if (taken[cell] != 0) {
-            throw BadInput(fmt::format("surface.equilibrium: two rivers in one cell, at {} (the later is river cell "
-                                       "{}); join them there",
+            throw BadInput("surface.equilibrium",
+                           fmt::format("two rivers in one cell, at {} (the later is river cell {}); join them there",
                                        place(grid, cell), n));
         }
         taken[cell] = 1;
         std::int64_t const receiver = rivers.receiver[n];
         if (receiver < -1 || receiver >= static_cast<std::int64_t>(n)) {
-            throw BadInput(fmt::format("surface.equilibrium: river cell {} at {} flows to number {}; list cells "
-                                       "downstream first",
-                                       n, place(grid, cell), receiver));
+            throw BadInput("surface.equilibrium",
+                           fmt::format("river cell {} at {} flows to number {}; list cells downstream first", n,
+                                       place(grid, cell), receiver));
         }
         if (receiver >= 0) {
             Cell const a = grid.at(cell);
             Cell const b = grid.at(rivers.cell[receiver]);
             if (std::max(std::abs(a.col - b.col), std::abs(a.row - b.row)) != 1) {
-                throw BadInput(
-                    fmt::format("surface.equilibrium: river cell {} at {} flows to {}, which is not a neighbour", n,
-                                place(grid, cell), place(grid, grid.index(b))));
+                throw BadInput("surface.equilibrium",
+                               fmt::format("river cell {} at {} flows to {}, which is not a neighbour", n,
+                                           place(grid, cell), place(grid, grid.index(b))));
             }
         }
     }
@@ -107,17 +105,17 @@ void check_land(Channels const& rivers, Mask const& land) {
     if (land.cells() == 0) {
         return;
     }
-    require_same_grid(land.grid(), rivers.grid, "surface.equilibrium: the land's mask and the rivers",
+    require_same_grid(land.grid(), rivers.grid, "surface.equilibrium", "the land's mask and the rivers",
                       "make both on one grid");
     auto const values = land.values();
     if (std::none_of(values.begin(), values.end(), [](std::uint8_t v) { return v != 0; })) {
-        throw BadInput("surface.equilibrium: the mask leaves no land; mark at least the rivers' cells as land");
+        throw BadInput("surface.equilibrium", "the mask leaves no land; mark at least the rivers' cells as land");
     }
     for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
         if (land[rivers.cell[n]] == 0) {
-            throw BadInput(fmt::format("surface.equilibrium: river cell {} at {} lies at sea; end the river at the "
-                                       "coast",
-                                       n, place(rivers.grid, rivers.cell[n])));
+            throw BadInput("surface.equilibrium",
+                           fmt::format("river cell {} at {} lies at sea; end the river at the coast", n,
+                                       place(rivers.grid, rivers.cell[n])));
         }
     }
 }
@@ -126,13 +124,14 @@ void check_field(Grid const& grid, Raster<float> const& field, Mask const& land,
     if (field.cells() == 0) {
         return;
     }
-    require_same_grid(field.grid(), grid, fmt::format("surface.equilibrium: {} and the rivers", name),
+    require_same_grid(field.grid(), grid, "surface.equilibrium", fmt::format("{} and the rivers", name),
                       "make both on one grid");
     for (std::int64_t i = 0; i < field.cells(); ++i) {
         bool const dry = land.cells() == 0 || land[i] != 0;
         if (dry && !(field[i] > 0.0F && std::isfinite(field[i]))) {
-            throw BadInput(fmt::format("surface.equilibrium: {} is {} at {}; every cell of land needs a number above 0",
-                                       name, field[i], place(grid, i)));
+            throw BadInput("surface.equilibrium",
+                           fmt::format("{} is {} at {}; every cell of land needs a number above 0", name, field[i],
+                                       place(grid, i)));
         }
     }
 }
@@ -145,15 +144,16 @@ void check_channel_heights(Channels const& rivers) {
     for (std::size_t n = 0; n < rivers.z.size(); ++n) {
         float const z = rivers.z[n];
         if (std::isinf(z)) {
-            throw BadInput(fmt::format("surface.equilibrium: the height of river cell {} at {} is infinite", n,
-                                       place(rivers.grid, rivers.cell[n])));
+            throw BadInput("surface.equilibrium", fmt::format("the height of river cell {} at {} is infinite", n,
+                                                              place(rivers.grid, rivers.cell[n])));
         }
         std::int64_t const receiver = rivers.receiver[n];
         float const next = receiver < 0 ? none : below[receiver];
         if (z < next) {
-            throw BadInput(fmt::format("surface.equilibrium: the river rises downstream of cell {} at {}, from {} m to "
-                                       "{} m; reverse or repair it",
-                                       n, place(rivers.grid, rivers.cell[n]), z, next));
+            throw BadInput(
+                "surface.equilibrium",
+                fmt::format("the river rises downstream of cell {} at {}, from {} m to {} m; reverse or repair it", n,
+                            place(rivers.grid, rivers.cell[n]), z, next));
         }
         below[n] = std::isnan(z) ? next : z;
     }
@@ -166,8 +166,9 @@ bool is_level(Channels const& rivers, std::size_t n) {
 void check_levels(Channels const& rivers) {
     for (std::size_t n = 0; n < rivers.lake_z.size(); ++n) {
         if (std::isinf(rivers.lake_z[n]) || (!std::isnan(rivers.lake_z[n]) && is_level(rivers, n))) {
-            throw BadInput(fmt::format("surface.equilibrium: the level of a lake at {} is {} m{}",
-                                       place(rivers.grid, rivers.cell[n]), rivers.lake_z[n],
+            throw BadInput("surface.equilibrium",
+                           fmt::format("the level of a lake at {} is {} m{}", place(rivers.grid, rivers.cell[n]),
+                                       rivers.lake_z[n],
                                        is_level(rivers, n) ? " within a lake; give it to the outlet" : ""));
         }
     }
@@ -218,10 +219,10 @@ void check_drained(TerrainLevel const& level, Mask const& land, std::int64_t mar
         Cell const c = grid.at(i);
         bool const dry = land.cells() == 0 || land[i] != 0;
         auto const at = static_cast<std::size_t>((c.row + margin + 1) * level.width + c.col + margin + 1);
-        refuse_if<BadInput>(dry && level.type[at] == CellType::outside,
-                            "surface.equilibrium: no river drains the closed land at column {}, row {}; let one run "
-                            "there, or leave the edge open",
-                            c.col, c.row);
+        refuse_if<BadInput>(
+            dry && level.type[at] == CellType::outside, "surface.equilibrium",
+            "no river drains the closed land at column {}, row {}; let one run there, or leave the edge open", c.col,
+            c.row);
     }
 }
 

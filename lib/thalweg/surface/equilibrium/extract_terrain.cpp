@@ -181,10 +181,10 @@ double rise_for_slope(Slopes const& slopes, double mean_slope_deg) {
         return 1.0;
     }
     if (slopes.mean(widest) <= mean_slope_deg) {
-        throw BadParameter(
-            fmt::format("surface.equilibrium: surface.mean_slope = {} degrees cannot be reached: so much "
-                        "of the land is level that walls would give it {:.3g}; ask for less",
-                        mean_slope_deg, slopes.mean(widest)));
+        throw BadParameter("surface.equilibrium",
+                           fmt::format("surface.mean_slope = {} degrees cannot be reached: so much of the land is "
+                                       "level that walls would give it {:.3g}; ask for less",
+                                       mean_slope_deg, slopes.mean(widest)));
     }
     // The mean grows ever more slowly, so that Newton's steps from below never go too far.
     double rise = 0.0;

@@ -61,11 +61,11 @@ Cells<float> spread_both(TerrainLevel const& level, Cells<float> rises, Cells<fl
 void check_features(Grid const& grid, std::vector<FeatureCell> const& features, char const* self) {
     std::int64_t last = -1;
     for (FeatureCell const& feature : features) {
-        refuse_if<BadInput>(feature.cell <= last || feature.cell >= grid.cells(),
-                            "{}: feature cell {} follows {} on a grid of {} cells; list its cells in order, each once",
-                            self, feature.cell, last, grid.cells());
+        refuse_if<BadInput>(feature.cell <= last || feature.cell >= grid.cells(), self,
+                            "feature cell {} follows {} on a grid of {} cells; list its cells in order, each once",
+                            feature.cell, last, grid.cells());
         last = feature.cell;
-        refuse_if<BadInput>(std::isinf(feature.z), "{}: the height of feature cell {} is infinite", self, feature.cell);
+        refuse_if<BadInput>(std::isinf(feature.z), self, "the height of feature cell {} is infinite", feature.cell);
     }
 }
 
@@ -98,9 +98,9 @@ Raster<float> through_heights(Raster<float> dem, std::vector<std::int64_t> const
     constexpr char const* self = "surface.through_heights";
     Grid const& grid = dem.grid();
     check_features(grid, features, self);
-    refuse_if<BadInput>(rivers.empty(), "{}: there are no rivers; give at least one cell", self);
+    refuse_if<BadInput>(rivers.empty(), self, "there are no rivers; give at least one cell");
     for (std::int64_t const cell : rivers) {
-        refuse_if<BadInput>(cell < 0 || cell >= grid.cells(), "{}: river cell {} is not on the grid of {} cells", self,
+        refuse_if<BadInput>(cell < 0 || cell >= grid.cells(), self, "river cell {} is not on the grid of {} cells",
                             cell, grid.cells());
     }
     OverRivers const land = over_rivers(dem, rivers, run);

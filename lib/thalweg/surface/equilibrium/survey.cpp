@@ -192,7 +192,7 @@ void end_unknown_rivers(Channels& rivers) {
             heights.push_back(rivers.z[n]);
         }
     }
-    refuse_if<BadInput>(cells.empty(), "surface.rebuild: no river cell has a height; give one at least");
+    refuse_if<BadInput>(cells.empty(), "surface.rebuild", "no river cell has a height; give one at least");
     NearestRiver const near = nearest_of(level, cells);
     for (std::size_t n = 0; n < known.size(); ++n) {
         if (rivers.receiver[n] < 0 && known[n] == 0) {

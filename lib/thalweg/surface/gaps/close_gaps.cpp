@@ -180,10 +180,9 @@ void fill_enclosed(ClosedGaps& out, Raster<float> const& before, Mask const& rim
 
 void cut_rim(ClosedGaps& out, Mask const& rim, Run const& run) {
     Grid const window = largest_rectangle(rim, run);
-    refuse_if<BadInput>(window.width < 2 || window.height < 2,
-                        "{}: no rectangle of 2 x 2 cells is free of cells without data that are connected with the "
-                        "border: fill them from the nearest cells (--rim nearest)",
-                        closing);
+    refuse_if<BadInput>(window.width < 2 || window.height < 2, closing,
+                        "no rectangle of 2 x 2 cells is free of cells without data that are connected with the border: "
+                        "fill them from the nearest cells (--rim nearest)");
     Grid const& all = out.dem.grid();
     out.first = all.cell_of(window.centre({0, 0}));
     auto const has_data = [](float z) { return !std::isnan(z); };
@@ -254,12 +253,12 @@ Grid largest_rectangle(Mask const& marked, Run const& run) {
 }
 
 ClosedGaps close_gaps(Raster<float> const& dem, CloseGapsParams const& params, Run const& run) {
-    refuse_if<BadInput>(std::ranges::all_of(dem.values(), [](float z) { return std::isnan(z); }),
-                        "{}: no cell has a height", closing);
-    refuse_if<BadParameter>(params.sea_m && !std::isfinite(*params.sea_m), "{}: the level of the sea is not a number",
-                            closing);
-    refuse_if<BadParameter>(params.rim == RimGaps::sea && !params.sea_m,
-                            "{}: the rim can only lie under a sea whose level is set", closing);
+    refuse_if<BadInput>(std::ranges::all_of(dem.values(), [](float z) { return std::isnan(z); }), closing,
+                        "no cell has a height");
+    refuse_if<BadParameter>(params.sea_m && !std::isfinite(*params.sea_m), closing,
+                            "the level of the sea is not a number");
+    refuse_if<BadParameter>(params.rim == RimGaps::sea && !params.sea_m, closing,
+                            "the rim can only lie under a sea whose level is set");
     ClosedGaps out;
     out.dem = dem;
     Mask const rim = rim_of(dem, run);

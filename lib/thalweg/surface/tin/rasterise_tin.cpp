@@ -230,15 +230,16 @@ Bands bands_of(double south, double north, Grid const& grid) {
 void require_sound(Tin const& tin, Run const& run) {
     for (std::size_t i = 0; i < tin.vertices.size(); ++i) {
         Vec3 const& v = tin.vertices[i];
-        refuse_if<BadInput>(!is_finite(v), "surface.rasterise_tin: vertex {} is not finite: ({}, {}, {})", i + 1, v.x,
+        refuse_if<BadInput>(!is_finite(v), "surface.rasterise_tin", "vertex {} is not finite: ({}, {}, {})", i + 1, v.x,
                             v.y, v.z);
     }
     parallel_ranges(run, static_cast<std::int64_t>(tin.triangles.size()), 1 << 15, [&](std::int64_t b, std::int64_t e) {
         for (std::int64_t i = b; i < e; ++i) {
             auto const& t = tin.triangles[i];
             if (std::max({t[0], t[1], t[2]}) >= tin.vertices.size()) {
-                throw BadInput(fmt::format("surface.rasterise_tin: triangle {} has vertex {} of {}", i + 1,
-                                           std::max({t[0], t[1], t[2]}) + 1, tin.vertices.size()));
+                throw BadInput("surface.rasterise_tin",
+                               fmt::format("triangle {} has vertex {} of {}", i + 1, std::max({t[0], t[1], t[2]}) + 1,
+                                           tin.vertices.size()));
             }
         }
     });
@@ -333,7 +334,7 @@ public:
         // With so much cancellation in the products, rounding matters.
         bool const is_sliver = !(area > 1e-9 * (std::fabs(forward) + std::fabs(back)));
         refuse_if<BadInput>(is_sliver && geometry::side_of_line(in_plan(a), in_plan(b), in_plan(c)) <= 0,
-                            "surface.rasterise_tin: triangle {} at ({}, {}) does not run counterclockwise",
+                            "surface.rasterise_tin", "triangle {} at ({}, {}) does not run counterclockwise",
                             triangle + 1, a.x, a.y);
         sliver_ = is_sliver ? &t : nullptr;
         double const by_area = is_sliver ? 0.0 : 1.0 / area;

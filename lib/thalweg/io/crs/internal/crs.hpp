@@ -5,6 +5,7 @@
 #include <string>
 
 #include <thalweg/core/vec.hpp>
+#include <thalweg/io/files/internal/about.hpp>
 
 class OGRSpatialReference;
 
@@ -31,10 +32,13 @@ OGRSpatialReference equal_area_around(double longitude_deg, double latitude_deg,
 std::string metric_crs_around(OGRSpatialReference const& own, Vec2 middle_deg, double wide_deg);
 
 /// \throws BadInput where data cover more than 180 degrees of longitude, which no projection in metres serves
-void require_half_a_globe(double west_deg, double east_deg, std::string const& what);
+void require_half_a_globe(double west_deg, double east_deg, About const& about);
 
 /// Whether a CRS is one of the Earth, by the size of its ellipsoid.
 bool is_on_earth(OGRSpatialReference const& reference);
+
+/// same_crs, for a function whose errors these are.
+bool is_same_crs(std::string const& a, std::string const& b, About const& of_a, std::string const& of_b);
 
 /// "EPSG:n" if it has a code, else WKT.
 std::string name_of(OGRSpatialReference const& reference);

@@ -10,14 +10,19 @@
 #include <vector>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/io/files/internal/about.hpp>
 
 namespace thalweg::io {
 
+/// Rejects pipes and devices.
+/// \throws BadInput when is_pipe_or_device
+void refuse_pipe(std::string const& path, About const& about);
+
 /// Finds a format by its name, or, if that is "", by a path's extension, ignoring case. all: the formats with name and
-/// extension ("": none); the caller, for the message. Throws BadParameter that lists the names.
+/// extension ("": none); where: the caller. Throws BadParameter that lists the names.
 template <class Named>
 auto format_of(std::vector<Named> const& formats, std::string const& name, std::string const& path,
-               std::string const& who) {
+               std::string const& where) {
     std::string lowered = path;
     std::ranges::transform(lowered, lowered.begin(),
                            [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
@@ -28,8 +33,8 @@ auto format_of(std::vector<Named> const& formats, std::string const& name, std::
         }
         known += (known.empty() ? "" : ", ") + std::string(f.name);
     }
-    throw BadParameter(name.empty() ? who + ": the name of " + path + " does not tell the format; name one of " + known
-                                    : who + ": '" + name + "' is not a format; the formats are " + known);
+    throw BadParameter(where, name.empty() ? "the name of " + path + " does not tell the format; name one of " + known
+                                           : "'" + name + "' is not a format; the formats are " + known);
 }
 
 /// The extension of a path in lower case: ".las"; "": none.
@@ -43,9 +48,9 @@ class NewFile {
 public:
     /// Creates the file.
     /// \param path of the file
-    /// \param who "io.write_text: PATH", for messages
+    /// \param about whose errors they are
     /// \throws IoError with the system's reason, also when the file exists
-    NewFile(std::string const& path, std::string who);
+    NewFile(std::string const& path, About about);
     /// Appends bytes.
     /// \throws IoError when writing fails
     void append(std::string_view bytes);
@@ -57,7 +62,7 @@ private:
     struct Close {
         void operator()(std::FILE* file) const { std::fclose(file); }
     };
-    std::string who_;
+    About about_;
     std::unique_ptr<std::FILE, Close> file_;
 };
 

@@ -5,6 +5,8 @@
 #include <string>
 #include <thread>
 
+#include <thalweg/io/files/internal/about.hpp>
+
 /// What GDAL may access.
 namespace thalweg::io {
 
@@ -68,7 +70,7 @@ struct Refusal {
 /// Returns and clears this thread's last refusal.
 Refusal take_refusal();
 
-/// Throws BadInput that begins with `what` if something was refused.
-void throw_refusal(Refusal const& refusal, std::string const& what);
+/// Throws BadInput if something was refused.
+void throw_refusal(Refusal const& refusal, About const& about);
 
 } // namespace thalweg::io

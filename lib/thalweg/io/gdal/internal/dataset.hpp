@@ -9,6 +9,7 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/io/files/internal/about.hpp>
 #include <thalweg/io/gdal/access.hpp>
 
 class GDALDataset;
@@ -35,10 +36,10 @@ Dataset open_unchanged(Source const& source, unsigned kinds);
 
 /// Opens an existing file likewise, or a part of one: DRIVER:"FILE":NAME.
 /// \throws BadInput when there is none or no driver reads it
-Dataset open_file(Source const& source, unsigned kinds, std::string const& what);
+Dataset open_file(Source const& source, unsigned kinds, About const& about);
 
 /// \throws BadInput when a path that no driver reads is a folder
-void refuse_folder(std::string const& path, std::string const& what);
+void refuse_folder(std::string const& path, About const& about);
 
 /// Opens a part of an open file by GDAL's name of it, with the same driver and under the same restrictions; null when
 /// it cannot be read.

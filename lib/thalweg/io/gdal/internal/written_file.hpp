@@ -5,6 +5,8 @@
 #include <memory>
 #include <string>
 
+#include <thalweg/io/files/internal/about.hpp>
+
 namespace thalweg::io {
 
 /// A new file that GDAL writes piece by piece. On a full disk GDAL may report no error (3.10): this notes it. Without
@@ -13,9 +15,9 @@ class WrittenFile {
 public:
     /// Creates the file.
     /// \param path of the file
-    /// \param who "io.write_dem: PATH", for messages
+    /// \param about the call that writes it, for messages
     /// \throws IoError with the system's reason, also when the file exists
-    WrittenFile(std::string const& path, std::string who);
+    WrittenFile(std::string const& path, About about);
     ~WrittenFile();
     WrittenFile(WrittenFile const&) = delete;
     WrittenFile& operator=(WrittenFile const&) = delete;
@@ -31,7 +33,7 @@ public:
     struct State; ///< what GDAL's calls work on
 
 private:
-    std::string who_;
+    About about_;
     std::string path_;
     std::string name_;
     std::shared_ptr<State> state_;

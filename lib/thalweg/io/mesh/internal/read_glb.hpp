@@ -6,6 +6,7 @@
 
 #include <thalweg/core/tin.hpp>
 #include <thalweg/core/vec.hpp>
+#include <thalweg/io/files/internal/about.hpp>
 
 namespace thalweg::io {
 
@@ -19,10 +20,10 @@ struct GlbTriangles {
 
 /// Reads the triangles of a GLB (glTF 2.0 in one file), with the places of its nodes. Lines and points are skipped.
 /// \param bytes of the file
-/// \param what names the file in messages
+/// \param about whose errors they are
 /// \throws BadInput for a damaged file, compressed or sparse geometry, or other files that it needs
 ///
 /// Source: Khronos, glTF 2.0.
-GlbTriangles read_glb(std::string const& bytes, std::string const& what);
+GlbTriangles read_glb(std::string const& bytes, About const& about);
 
 } // namespace thalweg::io

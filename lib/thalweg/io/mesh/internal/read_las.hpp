@@ -27,9 +27,9 @@ enum class CloudFormat : std::uint8_t {
 /// \return none also for a path that is no file
 CloudFormat cloud_format(std::string const& path);
 
-/// \param who "module.function"
+/// \param where "module.function"
 /// \throws BadInput that says how to convert the file
-[[noreturn]] void refuse_e57(std::string const& path, std::string const& who);
+[[noreturn]] void refuse_e57(std::string const& path, std::string const& where);
 
 /// What is used of a point record: position in steps of the header's scales, and class.
 struct LasPoint {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <thalweg/core/river_files.hpp>
+#include <thalweg/io/files/internal/about.hpp>
 #include <thalweg/io/network/schema.hpp>
 #include <thalweg/io/network/write_network.hpp>
 #include <thalweg/io/tables/table.hpp>
@@ -26,16 +27,15 @@ void add_user_columns(Table& table, AttributeTable const& attributes,
 
 /// The layers of a network in a schema: arcs and nodes in the native one, else arcs alone.
 /// \param short_names of at most ten characters
-/// \param what begins messages: "io.write_geopackage: PATH"
+/// \param about whose errors they are
 /// \throws BadInput when the tables do not belong to the network, or more arcs meet than the schema can name
-std::vector<Table> network_layers(NetworkTables const& tables, Schema schema, bool short_names,
-                                  std::string const& what);
+std::vector<Table> network_layers(NetworkTables const& tables, Schema schema, bool short_names, About const& about);
 
 /// The layer nodes of the native schema.
 Table nodes_table(NetworkTables const& tables);
 
 /// All tables of the native schema's GeoPackage.
 /// \throws BadInput like network_layers, or when a ridge has fewer than two vertices
-std::vector<Table> geopackage_tables(NetworkTables const& tables, std::string const& what);
+std::vector<Table> geopackage_tables(NetworkTables const& tables, About const& about);
 
 } // namespace thalweg::io

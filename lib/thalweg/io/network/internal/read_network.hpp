@@ -18,6 +18,7 @@
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/io/files/internal/about.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/network/read_network.hpp>
@@ -90,7 +91,7 @@ public:
     /// The name as the file has it.
     std::string const& name() const { return name_; }
     /// \throws BadInput when it cannot hold numbers; a note when it holds them as text
-    void require_numbers(std::string const& what, Notes& notes) const;
+    void require_numbers(About const& about, Notes& notes) const;
 
 private:
     static constexpr int absent = -1;
@@ -327,9 +328,9 @@ std::vector<Polygon> lakes_of_layers(GDALDataset& data, std::vector<OGRLayer*> c
                                      OGRSpatialReference const& own, Run const& run);
 
 /// The only layer that may hold polygons.
-/// \param what begins messages
+/// \param about whose errors they are
 /// \throws BadInput that lists the layers when there are several or none
-std::vector<OGRLayer*> layers_of_areas(GDALDataset& data, std::string const& what);
+std::vector<OGRLayer*> layers_of_areas(GDALDataset& data, About const& about);
 
 /// Drops polygons in which more than half of the lines' vertices lie, with a finding each: countries, catchments.
 void drop_surroundings(std::vector<Polygon>& lakes, std::vector<RiverLine> const& lines,
@@ -370,14 +371,14 @@ DrawnLine drawn_line(OGRGeometry const* shape, std::int64_t feature, OtherShapes
 
 /// A file or database, opened read-only.
 struct NetworkSource {
-    std::string what; ///< "io.read_network: PATH", without a password
+    About about; ///< the path, without a password
     Dataset dataset;
 };
 
 /// A layer, and how messages name it.
 struct Layer {
     OGRLayer* layer = nullptr;
-    std::string what = {};
+    About about = {};
     std::shared_ptr<void const> holds = {}; ///< several layers as one
     std::vector<OGRLayer*> read_from = {};  ///< the layers of the file
 
@@ -387,7 +388,7 @@ struct Layer {
 };
 
 /// \throws BadInput that lists the layers when none has lines; IoError when features cannot be read
-void require_lines(GDALDataset& data, std::string const& name, std::string const& who);
+void require_lines(GDALDataset& data, About const& about);
 
 /// The layers of a source.
 std::vector<OGRLayer*> layers_of(GDALDataset& data);
@@ -401,10 +402,10 @@ bool may_hold_lines(OGRLayer& layer);
 /// \param wanted a layer's name, or several separated by commas; or "" for the only layer with lines that is not empty;
 /// of several the one whose name says that it holds rivers (arcs, NHDFlowline, waterways, rivers, ...), if only one
 /// does. All folders of KML but those of roads and the like, all tracks and routes of GPX; of OpenStreetMap the ways.
-/// \param what begins messages
+/// \param about whose errors they are
 /// \throws BadInput that lists the layers: no such layer, none with lines, several of which none is clearly meant;
 /// IoError when features cannot be read
-std::vector<OGRLayer*> rivers_layers(GDALDataset& data, std::string const& wanted, std::string const& what);
+std::vector<OGRLayer*> rivers_layers(GDALDataset& data, std::string const& wanted, About const& about);
 
 /// Layers to be read as one.
 struct ChosenLayer {
@@ -414,19 +415,19 @@ struct ChosenLayer {
 };
 
 /// \param layers one or more
-/// \param what begins messages
+/// \param about whose errors they are
 /// \throws BadInput when they are in different coordinate systems
-ChosenLayer as_one(std::vector<OGRLayer*> const& layers, std::string const& what);
+ChosenLayer as_one(std::vector<OGRLayer*> const& layers, About const& about);
 
 /// Names the layers with lines that are not read.
 /// \param data the source
 /// \param read those that are
 /// \param crs in metres, for lengths; "": there are none
 /// \param source_crs of layers that have none; "": none
-/// \param name of the file
+/// \param about the file
 /// \return layers_not_read [m], or nothing
 std::vector<Finding> layers_not_read(GDALDataset& data, std::vector<OGRLayer*> const& read, std::string const& crs,
-                                     std::string const& source_crs, std::string const& name);
+                                     std::string const& source_crs, About const& about);
 
 /// The files of a network: a GeoPackage is both; nodes is "" where there is no file for them.
 struct NetworkPlace {
@@ -475,10 +476,10 @@ public:
     /// Strict notes throw what they are given as BadInput.
     explicit Notes(bool strict) : strict_(strict) {}
 
-    /// source: the file and layer for the message of a strict note.
-    void add(std::string const& source, Finding finding);
-    void add(std::string const& source, FindingKind kind, std::int64_t feature, double amount, std::string text) {
-        add(source, {kind, feature, nowhere, amount, std::move(text)});
+    /// about: the file and layer for the message of a strict note.
+    void add(About const& about, Finding finding);
+    void add(About const& about, FindingKind kind, std::int64_t feature, double amount, std::string text) {
+        add(about, {kind, feature, nowhere, amount, std::move(text)});
     }
     /// The first thousand of each kind, and one more that counts the rest.
     std::vector<Finding> take();

@@ -6,6 +6,7 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/io/files/internal/about.hpp>
 
 namespace thalweg::io {
 
@@ -16,10 +17,10 @@ namespace thalweg::io {
 std::string exr(Raster<float> const& heights, Run const& run);
 
 /// Reads the heights of an OpenEXR file.
-/// \param what for messages
+/// \param about whose errors they are
 /// \return [m] of channel Y, or of the only channel; rows from the north, cells of 1
 /// \throws BadInput for several channels without Y, and for a file that cannot be read
 /// \throws BadParameter in a build without OpenEXR
-Raster<float> heights_of_exr(std::string const& path, std::string const& what);
+Raster<float> heights_of_exr(std::string const& path, About const& about);
 
 } // namespace thalweg::io

@@ -8,6 +8,7 @@
 #include <string>
 
 #include <thalweg/core/finding.hpp>
+#include <thalweg/io/files/internal/about.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 
@@ -23,7 +24,7 @@ std::string text_of(char const* text);
 /// Opens the only variable of a file without cells of its own, or the only one whose name means heights; where one
 /// means heights and others depths, that of heights.
 /// \throws BadInput naming all variables where there is none such
-Dataset variable_of_heights(Dataset const& file, std::string const& what);
+Dataset variable_of_heights(Dataset const& file, About const& about);
 
 /// The bands of a file that make its heights.
 struct HeightBands {
@@ -39,7 +40,7 @@ struct HeightBands {
 
 /// Chooses them.
 /// \throws BadInput where no band is clearly that of heights, or the one wanted is missing
-HeightBands choose_bands(Dataset file, ReadDemParams const& params, std::string const& what);
+HeightBands choose_bands(Dataset file, ReadDemParams const& params, About const& about);
 
 /// Whether a band's numbers grow upwards.
 struct HeightDirection {

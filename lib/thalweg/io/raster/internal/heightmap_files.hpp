@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <thalweg/core/finding.hpp>
+#include <thalweg/io/files/internal/about.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 
@@ -39,6 +40,6 @@ struct OpenedHeightmap {
 /// heights
 /// \throws BadParameter for OpenEXR in a build without it
 OpenedHeightmap open_heightmap(Source const& source, ReadDemParams const& params, Dataset const& picture,
-                               std::string const& what);
+                               About const& about);
 
 } // namespace thalweg::io

@@ -15,6 +15,7 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
+#include <thalweg/io/files/internal/about.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 
 class OGRSpatialReference;
@@ -33,9 +34,9 @@ enum class HeightsIn : std::uint8_t { metres, stored };
 /// The vertical CRS only names the unit: nothing shifts heights to another datum.
 class OpenedHeights {
 public:
-    /// \param what "io.read_dem: FILE", for messages
+    /// \param about whose errors they are
     /// \throws BadInput as read_dem_file, except for what only the values show
-    OpenedHeights(Source const& source, ReadDemParams const& params, HeightsIn wanted, std::string what);
+    OpenedHeights(Source const& source, ReadDemParams const& params, HeightsIn wanted, About about);
     ~OpenedHeights();
     OpenedHeights(OpenedHeights const&) = delete;
     OpenedHeights& operator=(OpenedHeights const&) = delete;
@@ -90,7 +91,7 @@ private:
 
     ReadDemParams params_;
     HeightsIn wanted_;
-    std::string what_;
+    About about_;
     std::string path_;
     std::string name_; ///< the file's, for findings
     std::unique_ptr<Bands> bands_;

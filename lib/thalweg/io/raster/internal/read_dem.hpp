@@ -7,6 +7,7 @@
 #include <string>
 
 #include <thalweg/core/raster.hpp>
+#include <thalweg/io/files/internal/about.hpp>
 
 namespace thalweg::io {
 
@@ -19,6 +20,6 @@ inline bool are_squares(double dx, double dy, int width, int height) {
 }
 
 /// \throws BadInput when heights of a grid need more than the machine's memory
-void require_memory(Grid const& grid, std::string const& what);
+void require_memory(Grid const& grid, About const& about);
 
 } // namespace thalweg::io

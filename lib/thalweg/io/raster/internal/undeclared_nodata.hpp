@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <thalweg/core/finding.hpp>
+#include <thalweg/io/files/internal/about.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 
 namespace thalweg::io {
@@ -44,10 +45,10 @@ public:
 
     /// Processes the next row: stored values, NaN: declared as no-data.
     void add_row(std::span<double const> stored);
-    /// Call it once, after the last row. what: "io.read_dem: FILE". Throws BadInput naming the value, its first cell
+    /// Call it once, after the last row. about: the file. Throws BadInput naming the value, its first cell
     /// and the remedy.
     /// \return the doubt about cells of 0, if there is one
-    std::optional<Finding> require_none(std::string const& what, std::string const& path);
+    std::optional<Finding> require_none(About const& about, std::string const& path);
 
 private:
     using Position = std::array<std::int64_t, 2>; ///< column and row
@@ -75,11 +76,10 @@ private:
     void note_sentinel(std::int64_t col, double z);
     /// Counts single cells in the second of the last three rows.
     void note_single();
-    void refuse_sentinels(std::string const& what, std::string const& path) const;
+    void refuse_sentinels(About const& about, std::string const& path) const;
     /// \param value of the extreme, e.value or its negative
     /// \param range of all other values
-    void refuse_block(Extreme const& e, double value, double range, std::string const& what,
-                      std::string const& path) const;
+    void refuse_block(Extreme const& e, double value, double range, About const& about, std::string const& path) const;
     std::optional<Finding> doubt_about(Extreme const& e, double range) const;
 
     bool searches_ = true;

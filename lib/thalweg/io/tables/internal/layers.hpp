@@ -8,6 +8,7 @@
 #include <string>
 
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/io/files/internal/about.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/tables/table.hpp>
 
@@ -22,7 +23,7 @@ enum class LayerFormat : std::uint8_t { geopackage, shapefile, flatgeobuf, geojs
 
 struct LayerTarget {
     LayerFormat format;
-    std::string what; ///< "io.write_geopackage: PATH", begins every message
+    About about; ///< whose errors they are
     Driver const& driver;
     GDALDataset& dataset;
     OGRSpatialReference* reference; ///< null for none
