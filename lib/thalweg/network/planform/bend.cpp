@@ -37,7 +37,7 @@ void add_point(Stems& out, Vec2 at, double area_m2) {
     out.way_m.push_back(first ? 0.0 : out.way_m.back() + distance(out.at.back(), at));
     out.at.push_back(at);
     out.area_m2.push_back(area_m2);
-    out.stem_of.push_back(out.stems.size() - 1);
+    out.stem_of.push_back(static_cast<std::uint32_t>(out.stems.size() - 1));
 }
 
 /// Adds an arc's points; its first already exists if the stem continues.
@@ -367,6 +367,10 @@ Stems stems_of(StreamNetwork const& network, std::vector<double> const& area_m2,
             out.stems.back().end = out.at.size();
         }
     }
+    out.at.shrink_to_fit(); // much of the memory that meanders take
+    out.way_m.shrink_to_fit();
+    out.area_m2.shrink_to_fit();
+    out.stem_of.shrink_to_fit();
     return out;
 }
 

@@ -50,9 +50,8 @@ bool leaves_land(Stems const& stems, std::vector<Vec2> const& at, std::size_t i,
 }
 
 Crowding::Crowding(Stems const& stems, std::vector<Vec2> const& was, Grid const& grid, Mask const& land, Gap const& gap)
-    : stems_(stems), stem_of_(stems.stem_of.begin(), stems.stem_of.end()), was_(was), grid_(grid), land_(land),
-      gap_(gap), reach_m_(1.001 * gap.gap_m), moved_(was.size()), off_(was.size()), off_land_(was.size()),
-      spans_(was.size()) {}
+    : stems_(stems), was_(was), grid_(grid), land_(land), gap_(gap), reach_m_(1.001 * gap.gap_m), moved_(was.size()),
+      off_(was.size()), off_land_(was.size()), spans_(was.size()) {}
 
 /// Lays out the index for the first positions.
 void Crowding::cover() {
@@ -104,7 +103,7 @@ void Crowding::fill() {
 /// Notes a point and a segment that are too close.
 void Crowding::compare(std::size_t point, std::size_t segment, Pairs& close) const {
     if (segment == point || segment + 1 == point ||
-        (stem_of_[point] == stem_of_[segment] &&
+        (stems_.stem_of[point] == stems_.stem_of[segment] &&
          std::fabs(stems_.way_m[point] - stems_.way_m[segment]) < gap_.along_m)) {
         return;
     }

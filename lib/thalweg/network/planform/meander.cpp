@@ -106,6 +106,8 @@ Lines lines_through(Stems const& stems, StreamNetwork const& network, std::vecto
     for (std::size_t a = 0; a < network.arc_count(); ++a) {
         auto& line = out.line.emplace_back();
         auto& point = out.point.emplace_back();
+        line.reserve(stems.last_point[a] - stems.first_point[a] + 1);
+        point.reserve(line.capacity());
         for (std::size_t i = stems.first_point[a]; i <= stems.last_point[a]; ++i) {
             if (line.empty() || !(line.back() == at[i])) {
                 line.push_back(at[i]);
@@ -218,6 +220,7 @@ private:
             std::swap(loose, last);
             std::vector<std::size_t> bad = crowding.points(at, run_);
             if (bad.empty()) {
+                std::vector<Vec2>().swap(loose); // room for what looks for meetings
                 bad = meeting_points(lines_through(stems_, network_, at), network_, run_);
             }
             if (bad.empty()) {

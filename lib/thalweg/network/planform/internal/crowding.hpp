@@ -54,7 +54,9 @@ private:
     /// A point and a segment.
     using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-    bool is_segment(std::size_t i) const { return i + 1 < stem_of_.size() && stem_of_[i] == stem_of_[i + 1]; }
+    bool is_segment(std::size_t i) const {
+        return i + 1 < stems_.stem_of.size() && stems_.stem_of[i] == stems_.stem_of[i + 1];
+    }
     void cover();
     void fill();
     Span span_of(Vec2 a, Vec2 b, double margin_m) const;
@@ -68,7 +70,6 @@ private:
     void look_around(std::size_t segment, Pairs& close) const;
 
     Stems const& stems_;
-    std::vector<std::uint32_t> stem_of_; ///< as in stems_, in half the memory
     std::vector<Vec2> const& was_;
     Grid const& grid_;
     Mask const& land_;

@@ -29,7 +29,7 @@ struct Stems {
     std::vector<Vec2> at;        ///< [m] by point: vertices, with intermediate points so that steps are at most a cell
     std::vector<double> way_m;   ///< [m] by point: from the stem's beginning
     std::vector<double> area_m2; ///< [m2] by point: area of its arc
-    std::vector<std::size_t> stem_of;     ///< by point
+    std::vector<std::uint32_t> stem_of;   ///< by point
     std::vector<std::size_t> first_point; ///< by arc
     std::vector<std::size_t> last_point;  ///< by arc
     std::vector<std::size_t> node_point;  ///< by node with arcs: its point on the largest river through it
