@@ -149,7 +149,7 @@ void check_memory(std::int64_t width, std::int64_t height) {
 }
 
 void check_memory_of_cluster(std::int64_t particles) {
-    // cell 16, parent 8, its register 10; the fields around it are about twenty bytes a particle at S = 1
+    // 41 at S = M = 1, 62 at S = 0.85, M = 3: cell 16, and the fields around it, or its parent 8 and register 16
     constexpr std::int64_t bytes_a_particle = 60;
     require("recipe.check_memory_of_cluster", fmt::format("[network.dla]: {} particles", particles),
             particles * bytes_a_particle, "Make network.dla.particles smaller.");

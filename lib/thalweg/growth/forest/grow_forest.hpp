@@ -23,7 +23,7 @@
 // field. Steps and distances are ours: docs/decisions/0014-forest.md.
 // Cost: a full region holds about cells / (2 s^2) particles. Walkers jump over free squares as in
 // dla/grow_dla.hpp and do not start in pockets where nothing can grow. docs/performance.md: 336 ns
-// a cell on 40 x 40 cells, 46 bytes a cell, time as cells ^ 1.23. One thread: each walker depends
+// a cell on 40 x 40 cells, 11 bytes a cell, time as cells ^ 1.23. One thread: each walker depends
 // on those before it.
 // Not for: one large basin with a main valley (grow_dla, grow_tokunaga): trees of a forest compete,
 // so a basin is as large as its neighbours allow. Land narrower than about s + 5 cells gets no
