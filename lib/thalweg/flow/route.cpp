@@ -196,10 +196,10 @@ FlowField through_depressions(Raster<float> const& dem, Sinks const& sinks, Run 
 
 } // namespace
 
-void require_countable(Grid const& grid, char const* function) {
-    refuse_if<BadInput>(std::cmp_greater(grid.cells(), std::numeric_limits<CellCount>::max()),
-                        "{}: {} x {} cells are 2^32 or more; take larger cells, or parts of the grid", function,
-                        grid.width, grid.height);
+void require_countable(Grid const& grid, char const* where) {
+    refuse_if<BadInput>(std::cmp_greater(grid.cells(), std::numeric_limits<CellCount>::max()), where,
+                        "{} x {} cells are 2^32 or more; take larger cells, or parts of the grid", grid.width,
+                        grid.height);
 }
 
 FlowField route(Raster<float> const& dem, Run const& run) {

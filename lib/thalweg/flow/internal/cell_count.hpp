@@ -8,6 +8,6 @@ namespace thalweg::flow {
 
 /// Refuses grids whose cells CellCount cannot count.
 /// \throws BadInput naming the function
-void require_countable(Grid const& grid, char const* function);
+void require_countable(Grid const& grid, char const* where);
 
 } // namespace thalweg::flow

@@ -148,7 +148,7 @@ void write_field(Raster<double> const& field, std::string const& path, Run const
                            fmt::format("{}: the number at column {}, row {} is {}", path, c.col, c.row, field[i]));
         }
     }
-    write_tiled(field, GDT_Float64, no_data, "io.write_field: ", path, run);
+    write_tiled(field, GDT_Float64, no_data, "io.write_field", path, run);
 }
 
 } // namespace thalweg::io
