@@ -203,7 +203,7 @@ TerrainLevel prepared(LevelInput&& input, std::size_t number, TerrainLevel const
     run.check();
     set_erodibility(level, land.fields, land.rock, run);
     copy_firmness(level, coarser);
-    jitter(level, params.seed, run);
+    level.jitter = params.seed;
     run.check();
     if (coarser.z.empty()) {
         start_from_nothing(level, nearest_river(level), params.seed, run);
@@ -230,7 +230,6 @@ void check_drained(TerrainLevel const& level, Mask const& land, std::int64_t mar
 void free_finished_memory(TerrainLevel& level) {
     level.rock = {};
     level.uplift = {};
-    level.shift = {};
     level.area = {};
 }
 

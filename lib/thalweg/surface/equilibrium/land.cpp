@@ -106,10 +106,19 @@ constexpr std::int8_t unreached = -2;
 
 /// [least tangents] rise to a cell that a flood reaches, by its node's position, so that flow paths across flat floods
 /// meander as on rough terrain.
-float rise_to(TerrainLevel const& level, std::size_t i) {
+float rise_to(std::uint8_t code) {
     constexpr unsigned steps = 16;
     constexpr float most = 4.0F;
-    return level.shift.empty() ? 1.0F : 1.0F + most / steps * static_cast<float>(5U * level.shift[i] % steps);
+    return 1.0F + most / steps * static_cast<float>(5U * code % steps);
+}
+
+/// By cell of a level whose nodes are jittered.
+Cells<std::uint8_t> all_jitter_codes(TerrainLevel const& level) {
+    Cells<std::uint8_t> codes(level.jitter ? level.z.size() : 0);
+    for (std::int64_t row = 0; level.jitter && row < level.height; ++row) {
+        jitter_codes(level, row, &codes[row * level.width]);
+    }
+    return codes;
 }
 
 /// Directs a bank to the river beside it and raises it above all of its cells.
@@ -407,6 +416,7 @@ void flood_terrain(TerrainLevel& level) {
             settle_bank(level, i, offsets);
         }
     });
+    Cells<std::uint8_t> const codes = all_jitter_codes(level);
     std::optional<Buckets> queue(level);
     for (std::size_t i = 0; i < level.type.size(); ++i) {
         if (!is_land(level.type[i])) {
@@ -424,7 +434,7 @@ void flood_terrain(TerrainLevel& level) {
         std::size_t const n = moved(from, offsets[k]);
         if (direction[n] == unreached && passes(from, n)) {
             direction[n] = static_cast<std::int8_t>((k + 4) % 8);
-            float const rise = rise_to(level, n) * level.least * level.side;
+            float const rise = (codes.empty() ? 1.0F : rise_to(codes[n])) * level.least * level.side;
             z[n] = std::max(z[n], z[from] + rise * step_lengths[k]);
             queue->push(n, z[n]);
         }
@@ -480,11 +490,21 @@ void set_steepest_receivers(TerrainLevel& level, Run const& run) {
     auto* const steepest = widest_lanes() == Lanes::avx2 ? &avx2::steepest_row : &plain::steepest_row;
     std::int64_t const inner = level.width - 2;
     std::vector<std::int8_t> const beside_crests = directions_beside_crests(level);
-    each_inner_row(level, run, [&](std::size_t first) {
-        steepest(&level.z[first], &level.shift[first], &level.type[first], &level.direction[first], level.width, inner);
-        for (std::size_t i = first; i < first + static_cast<std::size_t>(inner); ++i) {
-            if (is_bank(level.type[i])) {
-                level.direction[i] = steepest_river(level, i, offsets);
+    parallel_ranges(run, level.height - 2, least_rows(level.width), [&](std::int64_t begin, std::int64_t end) {
+        std::array<std::vector<std::uint8_t>, 3> codes;
+        codes.fill(std::vector<std::uint8_t>(static_cast<std::size_t>(level.width)));
+        jitter_codes(level, begin, codes[1].data());
+        jitter_codes(level, begin + 1, codes[2].data());
+        for (std::int64_t row = begin + 1; row < end + 1; ++row) {
+            std::rotate(codes.begin(), codes.begin() + 1, codes.end());
+            jitter_codes(level, row + 1, codes[2].data());
+            auto const first = static_cast<std::size_t>(row * level.width + 1);
+            steepest(&level.z[first], {&codes[0][1], &codes[1][1], &codes[2][1]}, &level.type[first],
+                     &level.direction[first], level.width, inner);
+            for (std::size_t i = first; i < first + static_cast<std::size_t>(inner); ++i) {
+                if (is_bank(level.type[i])) {
+                    level.direction[i] = steepest_river(level, i, offsets);
+                }
             }
         }
     });

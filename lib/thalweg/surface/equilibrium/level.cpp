@@ -539,16 +539,9 @@ void set_cell_types(TerrainLevel& level, Mask const& land, Edge edge, RiverBanks
     }
 }
 
-void jitter(TerrainLevel& level, std::uint64_t seed, Run const& run) {
-    level.shift.resize(static_cast<std::size_t>(level.cells()));
-    parallel_ranges(run, level.height, least_rows(level.width), [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t row = begin; row < end; ++row) {
-            std::uint8_t* const codes = &level.shift[row * level.width];
-            random_bytes(seed, jitter_stage, row, level.side, level.width, [&](std::int64_t col, std::uint8_t byte) {
-                codes[col] = byte % (jitter_places * jitter_places);
-            });
-        }
-    });
+void jitter_codes(TerrainLevel const& level, std::int64_t row, std::uint8_t* codes) {
+    random_bytes(level.jitter.value_or(0), jitter_stage, row, level.side, level.width,
+                 [&](std::int64_t col, std::uint8_t byte) { codes[col] = byte % (jitter_places * jitter_places); });
 }
 
 void start_from_nothing(TerrainLevel& level, NearestRiver const& near, std::uint64_t seed, Run const& run) {

@@ -188,7 +188,7 @@ private:
         }
         set_erodibility(level, land_.fields, rock, run_);
         level.rock.limit_by_half(steepest);
-        jitter(level, params_.seed, run_);
+        level.jitter = params_.seed;
         run_.check();
         return level;
     }
@@ -332,7 +332,7 @@ private:
             for (int round = 0; round < rounds; ++round) {
                 run_.at(share_done(number, round, rounds) * 0.5, "fill");
                 if (round > 0) { // with other nodes each time, whose chance is averaged
-                    jitter(level, params_.seed + 1000 * static_cast<std::uint64_t>(round), run_);
+                    level.jitter = params_.seed + 1000 * static_cast<std::uint64_t>(round);
                     set_steepest_receivers(level, run_);
                 }
                 accumulate_areas(level, run_);

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -187,14 +188,14 @@ struct TerrainLevel {
     Cells<CellType> type;
     Cells<float> z;
     Rock rock;
-    Cells<float> uplift;               ///< empty: 1 everywhere
-    Cells<std::int8_t> direction;      ///< towards the receiver, as in d8_steps, or no_direction
-    Cells<std::uint8_t> shift;         ///< position of the node in its cell: code of jitter()
-    Cells<std::uint32_t> area;         ///< [cells of this level]; after relax_terrain() of river cells alone
-    std::vector<Inflow> inflow;        ///< water from beyond the frame
-    std::vector<std::uint32_t> crests; ///< land cells that no water crosses where it finds another way, ascending
-    Cells<std::uint8_t> is_crest;      ///< by cell; empty: there are none
-    Cells<float> firmness;             ///< [log] decrease of erodibility below the fields' values; empty: none
+    Cells<float> uplift;                 ///< empty: 1 everywhere
+    Cells<std::int8_t> direction;        ///< towards the receiver, as in d8_steps, or no_direction
+    std::optional<std::uint64_t> jitter; ///< seed of jitter_codes(); none: nodes lie at the centres of cells
+    Cells<std::uint32_t> area;           ///< [cells of this level]; after relax_terrain() of river cells alone
+    std::vector<Inflow> inflow;          ///< water from beyond the frame
+    std::vector<std::uint32_t> crests;   ///< land cells that no water crosses where it finds another way, ascending
+    Cells<std::uint8_t> is_crest;        ///< by cell; empty: there are none
+    Cells<float> firmness;               ///< [log] decrease of erodibility below the fields' values; empty: none
 
     std::int64_t cells() const { return width * height; }
     Cell at(std::size_t i) const {

@@ -35,6 +35,9 @@ public:
         run_.resize(cells / length + 1, 0);
         std::uint32_t& run = run_[cell / length];
         if (run == 0) {
+            if (values_.size() == values_.capacity()) {
+                values_.reserve(values_.size() / 4 * 5 + 64 * length);
+            }
             values_.resize(values_.size() + length, none);
             run = static_cast<std::uint32_t>(values_.size() / length);
         }

@@ -74,8 +74,8 @@ void set_cell_types(TerrainLevel& level, Mask const& land, Edge edge, RiverBanks
 inline constexpr int jitter_places = 8;
 inline constexpr int jitter_cell = 10; ///< distances of two places in a cell's side
 
-/// Places every node of a level at random.
-void jitter(TerrainLevel& level, std::uint64_t seed, Run const& run);
+/// Places the nodes of a level's row at random, the frame's included.
+void jitter_codes(TerrainLevel const& level, std::int64_t row, std::uint8_t* codes);
 
 /// What lies beyond an open boundary.
 enum class Beyond : std::uint8_t {
