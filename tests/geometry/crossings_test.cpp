@@ -248,6 +248,38 @@ TEST(Crossings, CrowdsFarApartAreAsEachAlone) {
     EXPECT_TRUE(ok);
 }
 
+TEST(Crossings, ManySegmentsAreAsFew) {
+    // Copies one above another, so many that they are taken in bands, whose borders cut upright lines.
+    constexpr std::size_t copies = 1500;
+    constexpr double apart = 1000.0;
+    thalweg::RandomStream words(7, 1, 0);
+    auto const below = [&](std::uint64_t n) { return static_cast<double>(words.word() % n); };
+    Lines alone{{{500.0, 0.0}, {501.0, 950.0}, {502.0, 1.0}}};
+    for (int l = 0; l < 99; ++l) {
+        Vec2 const at{below(900), below(900)};
+        alone.push_back({at, at + Vec2{below(50), below(90) - 45.0}, at + Vec2{60.0, below(90) - 45.0}});
+    }
+    Lines many;
+    for (std::size_t k = 0; k < copies; ++k) {
+        for (auto line : alone) {
+            for (Vec2& p : line) {
+                p.y += apart * static_cast<double>(k);
+            }
+            many.push_back(std::move(line));
+        }
+    }
+    std::vector<Crossing> const expected = crossings(alone);
+    std::vector<Crossing> const found = crossings(many);
+    ASSERT_GT(expected.size(), 10U);
+    ASSERT_EQ(found.size(), copies * expected.size());
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        Crossing const& one = expected[k % expected.size()];
+        ASSERT_EQ(found[k].line % alone.size(), one.line);
+        ASSERT_EQ(found[k].segment, one.segment);
+        ASSERT_NEAR(found[k].along, one.along, 1e-9);
+    }
+}
+
 TEST(Crossings, PointsDoNotDependOnDirection) {
     bool const ok = rc::check([] {
         auto const coordinate = rc::gen::map(rc::gen::inRange(-1000000, 1000000), [](int i) { return i * 1e-3; });

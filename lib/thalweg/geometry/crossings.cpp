@@ -147,18 +147,27 @@ private:
     LineSegment segment_;
 };
 
-void add_boxes(std::vector<Vec2> const& line, std::uint32_t number, std::vector<Box>& boxes) {
-    for (std::size_t v = 0; v < line.size(); ++v) {
-        refuse_if<BadInput>(!is_finite(line[v]), "geometry.crossings", "vertex {} of line {} is not finite", v, number);
-    }
-    std::size_t const before = boxes.size();
+struct SouthNorth {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -std::numeric_limits<double>::infinity();
+};
+
+// Adds the boxes of a polyline's segments that touch a band, its northern border not counted.
+void add_boxes(std::vector<Vec2> const& line, std::uint32_t number, SouthNorth band, std::vector<Box>& boxes) {
+    auto const add = [&](std::uint32_t segment, Vec2 a, Vec2 b) {
+        if (std::max(a.y, b.y) >= band.low && std::min(a.y, b.y) < band.high) {
+            boxes.emplace_back(LineSegment{number, segment}, a, b);
+        }
+    };
+    bool is_point = line.size() > 1;
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
         if (line[i] != line[i + 1]) {
-            boxes.emplace_back(LineSegment{number, static_cast<std::uint32_t>(i)}, line[i], line[i + 1]);
+            add(static_cast<std::uint32_t>(i), line[i], line[i + 1]);
+            is_point = false;
         }
     }
-    if (boxes.size() == before && line.size() > 1) {
-        boxes.emplace_back(LineSegment{number, 0}, line[0], line[0]);
+    if (is_point) {
+        add(0, line[0], line[0]);
     }
 }
 
@@ -290,32 +299,66 @@ private:
     std::vector<std::uint32_t> numbers_;
 };
 
-// Calls visit once for every two segments whose boxes meet, in an unspecified order. Polylines have finite coordinates;
-// there are fewer than 2^32, of fewer than 2^32 vertices each. Segments of length 0 are skipped, except the first of a
-// polyline that is one repeated point. Throws BadInput when a coordinate is not finite. Source where a grid
-// does not suit: Zomorodian and Edelsbrunner 2000 (CGAL).
+// What each polyline covers from south to north. Throws BadInput when a coordinate is not finite.
+std::vector<SouthNorth> ranges_of(std::vector<std::vector<Vec2>> const& lines) {
+    std::vector<SouthNorth> ranges(lines.size());
+    for (std::size_t l = 0; l < lines.size(); ++l) {
+        for (std::size_t v = 0; v < lines[l].size(); ++v) {
+            refuse_if<BadInput>(!is_finite(lines[l][v]), "geometry.crossings", "vertex {} of line {} is not finite", v,
+                                l);
+            ranges[l] = {std::min(ranges[l].low, lines[l][v].y), std::max(ranges[l].high, lines[l][v].y)};
+        }
+    }
+    return ranges;
+}
+
+// Calls visit(a, b) once for every two boxes that meet, in an unspecified order.
+template <class Visit> void each_meeting(std::vector<Box>& boxes, Visit const& visit) {
+    if (BoxGrid const grid(boxes); grid.is_filled()) {
+        grid.each_pair(visit);
+    } else {
+        CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), visit);
+    }
+}
+
+// Calls visit once for every two segments whose boxes meet, in an unspecified order: many of them in bands from south
+// to north, of which one is in memory. Polylines have finite coordinates; there are fewer than 2^32, of fewer than 2^32
+// vertices each. Segments of length 0 are skipped, except the first of a polyline that is one repeated point. Throws
+// BadInput when a coordinate is not finite. Source where a grid does not suit: Zomorodian and Edelsbrunner 2000 (CGAL).
 void each_close_pair(std::vector<std::vector<Vec2>> const& lines,
                      std::function<void(LineSegment, LineSegment)> const& visit, Run const& run = {}) {
+    constexpr std::size_t most_in_band = 1 << 18;
+    std::vector<SouthNorth> const ranges = ranges_of(lines);
     std::size_t segments = 0;
-    for (auto const& line : lines) {
-        segments += line.empty() ? 0 : line.size() - 1;
-    }
-    std::vector<Box> boxes;
-    boxes.reserve(segments);
+    SouthNorth all;
     for (std::size_t l = 0; l < lines.size(); ++l) {
-        add_boxes(lines[l], static_cast<std::uint32_t>(l), boxes);
+        segments += lines[l].empty() ? 0 : lines[l].size() - 1;
+        all = {std::min(all.low, ranges[l].low), std::max(all.high, ranges[l].high)};
     }
+    std::size_t const bands = segments / most_in_band + 1;
+    double const tall = (all.high - all.low) / static_cast<double>(bands);
     std::int64_t pairs = 0;
-    auto const visit_boxes = [&](Box const& a, Box const& b) {
-        if ((++pairs & 0xfff) == 0) {
-            run.check();
+    std::vector<Box> boxes;
+    for (std::size_t band = 0; band < bands; ++band) {
+        double const infinity = std::numeric_limits<double>::infinity();
+        double const south = band == 0 ? -infinity : all.low + static_cast<double>(band) * tall;
+        double const north = band + 1 == bands ? infinity : all.low + static_cast<double>(band + 1) * tall;
+        boxes.clear();
+        for (std::size_t l = 0; l < lines.size(); ++l) {
+            if (ranges[l].high >= south && ranges[l].low < north) {
+                add_boxes(lines[l], static_cast<std::uint32_t>(l), {south, north}, boxes);
+            }
         }
-        visit(a.segment(), b.segment());
-    };
-    if (BoxGrid const grid(boxes); grid.is_filled()) {
-        grid.each_pair(visit_boxes);
-    } else {
-        CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), visit_boxes);
+        each_meeting(boxes, [&](Box const& a, Box const& b) {
+            double const begin = std::max(a.min_coord(1), b.min_coord(1));
+            if (begin < south && band > 0) {
+                return; // met in a band farther south
+            }
+            if ((++pairs & 0xfff) == 0) {
+                run.check();
+            }
+            visit(a.segment(), b.segment());
+        });
     }
 }
 

@@ -112,18 +112,15 @@ bool is_dot(std::vector<Vec2> const& line, double size_m) {
     return line.front() == line.back() && east.x - west.x < size_m && north.y - south.y < size_m;
 }
 
-} // namespace
-
-std::vector<ContourLine> contours(Raster<float> const& dem, double interval_m, Run const& run) {
-    constexpr double tolerance_cells = 0.1;
-    require_few_levels(dem, interval_m);
+/// The contours as GDAL traces them.
+std::vector<ContourLine> drawn(Raster<float> const& dem, double interval_m, Run const& run) {
     Driver const driver;
     Dataset const source = dataset_of(dem, {"io.contours", ""});
     if (std::ranges::all_of(dem.values(), [](float z) { return std::isnan(z); })) {
         return {}; // GDAL 3.9 rejects such a raster
     }
-    Dataset const drawn(GetGDALDriverManager()->GetDriverByName("Memory")->Create("", 0, 0, 0, GDT_Unknown, nullptr));
-    OGRLayer* const layer = drawn->CreateLayer("contours", nullptr, wkbLineString, nullptr);
+    Dataset const memory(GetGDALDriverManager()->GetDriverByName("Memory")->Create("", 0, 0, 0, GDT_Unknown, nullptr));
+    OGRLayer* const layer = memory->CreateLayer("contours", nullptr, wkbLineString, nullptr);
     OGRFieldDefn z_field("z", OFTReal);
     layer->CreateField(&z_field);
     CPLStringList options;
@@ -148,12 +145,20 @@ std::vector<ContourLine> contours(Raster<float> const& dem, double interval_m, R
         }
         lines.push_back(std::move(line));
     }
-    lines = simplified(std::move(lines), tolerance_cells * dem.grid().cell_m, run);
     driver.check("io.contours"); // a failed allocation also ends the loop
     refuse_if<IoError>(static_cast<GIntBig>(lines.size()) != layer->GetFeatureCount(), "io.contours",
                        "contours are missing: free memory");
-    std::erase_if(lines,
-                  [&](ContourLine const& line) { return is_dot(line.line, tolerance_cells * dem.grid().cell_m); });
+    return lines;
+}
+
+} // namespace
+
+std::vector<ContourLine> contours(Raster<float> const& dem, double interval_m, Run const& run) {
+    constexpr double tolerance_cells = 0.1;
+    double const tolerance_m = tolerance_cells * dem.grid().cell_m;
+    require_few_levels(dem, interval_m);
+    std::vector<ContourLine> lines = simplified(drawn(dem, interval_m, run), tolerance_m, run);
+    std::erase_if(lines, [&](ContourLine const& line) { return is_dot(line.line, tolerance_m); });
     return lines;
 }
 
