@@ -316,7 +316,7 @@ TEST(Carve, WhatDrainsAlreadyIsRecognisedAndStaysAsItIs) {
         RC_ASSERT(drains == same_bytes(filled, scene.dem));
         RC_ASSERT(same_bytes(fill(scene.dem, scene.valley), filled));
         Banks const banks = confine_channels(scene.dem, scene.valley);
-        Raster<float> const carved = carve_depressions(banks.dem, scene.valley, banks.least, {});
+        Raster<float> const carved = carve_depressions(banks.dem, scene.valley, flow::sparse_heights(banks.least), {});
         RC_ASSERT(same_bytes(carve(banks.dem, scene.valley, banks.least), carved));
         ConditionedDem const land = condition(scene.dem, scene.valley);
         RC_ASSERT(same_bytes(land.dem, carved));
@@ -327,7 +327,7 @@ TEST(Carve, WhatDrainsAlreadyIsRecognisedAndStaysAsItIs) {
     EXPECT_GT(undrained, 0);
 }
 
-TEST(Carve, RefusesLeastHeightsOfAnotherGrid) {
+TEST(Carve, RefusesSparseHeightsOfAnotherGrid) {
     Raster<float> const dem(frame(4, 4));
     EXPECT_THROW(carved(dem, any_depth(frame(4, 5))), BadInput);
     EXPECT_THROW(carved(Raster<float>(), Raster<float>()), BadInput);

@@ -7,8 +7,6 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <optional>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -50,70 +48,100 @@ private:
     std::vector<Key> heap_;
 };
 
+/// What searches know of the cells that they have reached: pages of cells of one row, which the next search uses again.
+template <class T> class Pages {
+public:
+    explicit Pages(std::int64_t cells) : table_(static_cast<std::size_t>(cells) / cells_a_page + 1) {}
+
+    /// Begins a search, which has reached no cell.
+    void restart() {
+        ++search_;
+        used_ = 0;
+    }
+
+    /// The value of a cell; T{} until this search sets it. To look at another cell may move it.
+    T& operator[](std::int64_t cell) {
+        auto const at = static_cast<std::size_t>(cell);
+        Page& page = table_[at / cells_a_page];
+        if (page.search != search_) {
+            page = {search_, used_++};
+            std::size_t const first = page.place * cells_a_page;
+            pool_.resize(std::max(pool_.size(), first + cells_a_page));
+            std::fill_n(pool_.data() + first, cells_a_page, T{});
+        }
+        return pool_[page.place * cells_a_page + at % cells_a_page];
+    }
+
+private:
+    static constexpr std::size_t cells_a_page = 16;
+
+    struct Page {
+        std::uint32_t search = 0; ///< that used it last
+        std::uint32_t place = 0;  ///< in the pool
+    };
+
+    std::vector<Page> table_;
+    std::vector<T> pool_;
+    std::uint32_t search_ = 0;
+    std::uint32_t used_ = 0;
+};
+
 class Carver {
 public:
-    Carver(Raster<float> const& dem, Raster<float> const& valley, Raster<float> const& least, int heights,
+    Carver(Raster<float> const& dem, Raster<float> const& valley, SparseHeights const& least, int heights,
            Run const& run)
-        : heights_(heights), land_(framed(dem)), level_(framed(flooded(dem, valley, Lakes::level, run))),
-          least_(framed(least)), run_(run), offsets_(d8_offsets(land_.grid())), lake_(land_.grid()),
-          seen_(land_.grid()), reached_(land_.grid()) {
-        for (std::int64_t r = 0; r < valley.height(); ++r) {
-            for (std::int64_t c = 0; c < valley.width(); ++c) {
-                if (Cell const inner{c, r}; !std::isnan(valley[inner])) {
-                    least_[Cell{c + 1, r + 1}] = uncuttable;
-                }
+        : heights_(heights), level_(framed(flooded(dem, valley, Lakes::level, run))), land_(framed(dem)), run_(run),
+          offsets_(d8_offsets(land_.grid())), wet_(all_cells()), touched_(all_cells()), river_(all_cells()),
+          limited_(all_cells()), least_(least), seen_(land_.cells()), reached_(land_.cells()) {
+        auto const in_frame = [&](std::int64_t cell) {
+            Cell const inner = dem.grid().at(cell);
+            return land_.grid().index({inner.col + 1, inner.row + 1});
+        };
+        for (std::int64_t i = 0; i < valley.cells(); ++i) {
+            if (!std::isnan(valley[i])) {
+                river_[static_cast<std::size_t>(in_frame(i))] = true;
             }
+        }
+        limited_ = river_;
+        for (std::int64_t& cell : least_.cell) {
+            cell = in_frame(cell);
+            limited_[static_cast<std::size_t>(cell)] = true;
         }
     }
 
     /// Breaches depressions where that is cheaper than filling.
     /// \return the terrain; remaining depressions are still to be filled
     Raster<float> cut() {
-        std::vector<std::int64_t> all;
         for (std::int64_t i = 0; i < land_.cells(); ++i) {
-            if (level_[i] > land_[i]) {
-                all.push_back(i);
-            }
+            wet_[static_cast<std::size_t>(i)] = level_[i] > land_[i];
         }
-        std::vector<Lake> lakes = lakes_among(all);
-        for (std::size_t k = 0; k < lakes.size(); ++k) {
-            for (std::int64_t const i : lakes[k].cells) {
-                lake_[i] = static_cast<std::uint32_t>(k + 1);
-            }
-        }
-        touched_.assign(lakes.size() + 1, false);
-        // Lower pits first: anything lower than the current pit drains already.
-        std::vector<std::tuple<float, std::int64_t, std::size_t>> order;
-        for (std::size_t k = 0; k < lakes.size(); ++k) {
-            std::int64_t const pit = pit_of(lakes[k]);
-            order.emplace_back(land_[pit], pit, k);
-        }
-        std::sort(order.begin(), order.end());
+        std::vector<std::int64_t> const pits = pits_of_lakes();
         std::size_t done = 0;
-        for (auto const& [z, pit, k] : order) {
+        for (std::int64_t const pit : pits) {
             if (++done % 64 == 0) {
-                run_.at(static_cast<double>(done) / static_cast<double>(order.size()), "carve");
+                run_.at(static_cast<double>(done) / static_cast<double>(pits.size()), "carve");
             }
-            if (touched_[k + 1]) {
-                settle(lakes[k].cells);
+            Lake lake{take_cells(pit, wet_), 0.0F};
+            std::sort(lake.cells.begin(), lake.cells.end());
+            lake.level = level_[lake.cells.front()];
+            if (std::ranges::any_of(lake.cells, [this](auto i) { return touched_[static_cast<std::size_t>(i)]; })) {
+                settle(lake.cells);
             } else {
-                drain(lakes[k], 0);
+                drain(lake, 0);
                 changes_.clear();
             }
-            lakes[k] = {};
         }
         return std::move(land_);
     }
 
 private:
-    static constexpr float uncuttable = std::numeric_limits<float>::infinity(); ///< the least height of a river cell
+    using Marks = std::vector<bool>; ///< by cell
 
     /// A cell that a search for a breach has reached.
     struct Reached {
-        double cost = 0.0;
-        float height = 0.0F;                ///< to which the path through this cell is cut
-        std::uint32_t stamp = 0;            ///< of the last search that reached the cell
-        Direction back = Direction::leaves; ///< the step that reached the cell; leaves in the pit
+        double cost = std::numeric_limits<double>::infinity(); ///< infinite: not reached
+        float height = 0.0F;                                   ///< to which the path through this cell is cut
+        Direction back = Direction::leaves;                    ///< the step that reached the cell; leaves in the pit
     };
 
     /// Values of a cell before a change, for undo.
@@ -123,27 +151,59 @@ private:
         float level;
     };
 
+    std::size_t all_cells() const { return static_cast<std::size_t>(land_.cells()); }
+
+    bool is_lower(std::int64_t a, std::int64_t b) const { return land_[a] != land_[b] ? land_[a] < land_[b] : a < b; }
+
     std::int64_t pit_of(Lake const& lake) const {
-        return *std::min_element(lake.cells.begin(), lake.cells.end(), [this](std::int64_t a, std::int64_t b) {
-            return land_[a] != land_[b] ? land_[a] < land_[b] : a < b;
-        });
+        return *std::ranges::min_element(lake.cells, [this](std::int64_t a, std::int64_t b) { return is_lower(a, b); });
+    }
+
+    /// Takes the mark from a cell and all that are marked around it.
+    /// \return these
+    std::vector<std::int64_t> take_cells(std::int64_t first, Marks& marked) const {
+        std::vector<std::int64_t> cells{first};
+        marked[static_cast<std::size_t>(first)] = false;
+        for (std::size_t k = 0; k < cells.size(); ++k) {
+            for (std::int64_t const step : offsets_) {
+                std::int64_t const n = cells[k] + step;
+                if (marked[static_cast<std::size_t>(n)]) {
+                    marked[static_cast<std::size_t>(n)] = false;
+                    cells.push_back(n);
+                }
+            }
+        }
+        return cells;
+    }
+
+    /// The lowest cell of each lake of wet cells, lower ones first: anything lower than the current pit drains already.
+    std::vector<std::int64_t> pits_of_lakes() const {
+        std::vector<std::int64_t> pits;
+        Marks left = wet_;
+        for (std::int64_t i = 0; i < land_.cells(); ++i) {
+            if (left[static_cast<std::size_t>(i)]) {
+                pits.push_back(pit_of({take_cells(i, left)}));
+            }
+        }
+        std::ranges::sort(pits, [this](std::int64_t a, std::int64_t b) { return is_lower(a, b); });
+        return pits;
     }
 
     /// The lakes that cover some of these cells, by their first cell.
     std::vector<Lake> lakes_among(std::vector<std::int64_t> const& cells) {
         std::vector<Lake> lakes;
-        ++stamp_;
+        seen_.restart();
         for (std::int64_t const first : cells) {
-            if (seen_[first] == stamp_ || !(level_[first] > land_[first])) {
+            if (!(level_[first] > land_[first]) || seen_[first] != 0) {
                 continue;
             }
             Lake lake{{first}, level_[first]};
-            seen_[first] = stamp_;
+            seen_[first] = 1;
             for (std::size_t k = 0; k < lake.cells.size(); ++k) {
                 for (std::int64_t const step : offsets_) {
                     std::int64_t const n = lake.cells[k] + step;
-                    if (seen_[n] != stamp_ && level_[n] > land_[n]) { // never NaN
-                        seen_[n] = stamp_;
+                    if (level_[n] > land_[n] && seen_[n] == 0) { // never NaN
+                        seen_[n] = 1;
                         lake.cells.push_back(n);
                     }
                 }
@@ -156,15 +216,15 @@ private:
 
     /// Recomputes the levels of these cells after terrain has changed there or beside them.
     void flood_again(std::vector<std::int64_t> const& cells) {
-        ++stamp_;
+        seen_.restart();
         for (std::int64_t const i : cells) {
-            seen_[i] = stamp_; // still dry
+            seen_[i] = 1; // still dry
         }
         LowestCell queue;
         for (std::int64_t const i : cells) {
             float lowest = std::numeric_limits<float>::infinity();
             for (std::int64_t const step : offsets_) {
-                if (seen_[i + step] != stamp_ && level_[i + step] < lowest) { // never NaN
+                if (level_[i + step] < lowest && seen_[i + step] == 0) { // never NaN
                     lowest = level_[i + step];
                 }
             }
@@ -181,7 +241,7 @@ private:
             }
             for (std::int64_t const step : offsets_) {
                 std::int64_t const n = i + step;
-                if (seen_[n] == stamp_ && std::max(land_[n], z) < level_[n]) {
+                if (std::max(land_[n], z) < level_[n] && seen_[n] != 0) {
                     level_[n] = std::max(land_[n], z);
                     queue.emplace(level_[n], n);
                 }
@@ -278,9 +338,9 @@ private:
         changes_.push_back({i, land_[i], level_[i]});
         land_[i] = land;
         level_[i] = level;
-        touched_[lake_[i]] = true;
+        touched_[static_cast<std::size_t>(i)] = true;
         for (std::int64_t const step : offsets_) {
-            touched_[lake_[i + step]] = true;
+            touched_[static_cast<std::size_t>(i + step)] = true;
         }
     }
 
@@ -295,31 +355,35 @@ private:
     /// Finds the least-cost path from a pit to a cell that drains, if it costs less than the bound.
     /// \return the last cell to be cut
     std::int64_t find_breach(std::int64_t pit, double bound) {
-        ++stamp_;
+        reached_.restart();
         queue_.clear();
-        reached_[pit] = {0.0, land_[pit], stamp_, Direction::leaves};
+        reached_[pit] = {0.0, land_[pit], Direction::leaves};
         queue_.push(0.0, pit);
         while (!queue_.empty()) {
             auto const [cost, i] = queue_.pop();
-            if (cost > reached_[i].cost) {
+            Reached const here = reached_[i];
+            if (cost > here.cost) {
                 continue;
             }
-            float const height = just_below(reached_[i].height);
+            float const height = just_below(here.height);
             for (std::size_t k = 0; k < offsets_.size(); ++k) {
                 std::int64_t const n = i + offsets_[k];
                 float const land = land_[n];
                 if (land <= height ? level_[n] == land : std::isnan(land)) {
                     return i;
                 }
-                if (least_[n] > height && (land > height || least_[n] == uncuttable)) {
+                double const there = cost + std::max(0.0, static_cast<double>(land) - static_cast<double>(height));
+                if (!(there < bound)) {
                     continue;
                 }
-                double const there = cost + std::max(0.0, static_cast<double>(land) - static_cast<double>(height));
+                auto const at = static_cast<std::size_t>(n);
                 Reached& reached = reached_[n];
-                if (there < bound && (reached.stamp != stamp_ || there < reached.cost)) {
-                    reached = {there, height, stamp_, direction_of(k)};
-                    queue_.push(there, n);
+                if (!(there < reached.cost) ||
+                    (limited_[at] && (river_[at] || (land > height && least_.of(n) > height)))) {
+                    continue;
                 }
+                reached = {there, height, direction_of(k)};
+                queue_.push(there, n);
             }
         }
         return nowhere;
@@ -330,10 +394,11 @@ private:
     double cut_back_from(std::int64_t end) {
         double moved = 0.0;
         for (std::int64_t i = end;; i -= offsets_[index_of(reached_[i].back)]) {
-            float const height = std::min(land_[i], reached_[i].height);
+            Reached const reached = reached_[i];
+            float const height = std::min(land_[i], reached.height);
             moved += static_cast<double>(land_[i]) - static_cast<double>(height);
             set(i, height, height);
-            if (!goes_on(reached_[i].back)) {
+            if (!goes_on(reached.back)) {
                 return moved;
             }
         }
@@ -343,50 +408,90 @@ private:
     int heights_;                      ///< number of heights at which a cut may begin, the pit's own first
     static constexpr int deepest = 64; ///< nesting depth of lakes; deeper ones are filled
 
+    Raster<float> level_; ///< framed, as all that follows
     Raster<float> land_;
-    Raster<float> level_;
-    Raster<float> least_;
     Run const& run_;
     std::array<std::int64_t, 8> offsets_;
     std::vector<Was> changes_;
-    Raster<std::uint32_t> lake_; ///< number of the lake that covers the cell at first, from 1; 0: none
-    std::vector<bool> touched_;  ///< by number: a cell of the lake, or beside it, has changed
-    std::uint32_t stamp_ = 0;
-    Raster<std::uint32_t> seen_; ///< stamp of the last search that reached the cell
-    Raster<Reached> reached_;
+    Marks wet_;     ///< of the lakes that are still to be drained
+    Marks touched_; ///< it, or one beside it, has changed
+    Marks river_;   ///< must not be cut
+    Marks limited_; ///< a river or has a least height
+    SparseHeights least_;
+    Pages<std::uint8_t> seen_; ///< 1: by the last search
+    Pages<Reached> reached_;
     CheapestCell queue_; ///< of the last search
 };
 
 } // namespace
 
-Raster<float> carve_depressions(Raster<float> const& dem, Valley const& valley, Raster<float> const& least,
+float SparseHeights::of(CellIndex i) const {
+    auto const at = std::ranges::lower_bound(cell, i) - cell.begin();
+    return z[static_cast<std::size_t>(at)];
+}
+
+SparseHeights sparse_heights(Raster<float> const& by_cell) {
+    SparseHeights least;
+    for (CellIndex i = 0; i < by_cell.cells(); ++i) {
+        if (!std::isnan(by_cell[i])) {
+            least.cell.push_back(i);
+            least.z.push_back(by_cell[i]);
+        }
+    }
+    return least;
+}
+
+namespace {
+
+SparseHeights changed_cells(Raster<float> const& before, Raster<float> const& after) {
+    SparseHeights changed;
+    for (CellIndex i = 0; i < before.cells(); ++i) {
+        if (std::bit_cast<std::uint32_t>(before[i]) != std::bit_cast<std::uint32_t>(after[i])) {
+            changed.cell.push_back(i);
+            changed.z.push_back(after[i]);
+        }
+    }
+    return changed;
+}
+
+/// The terrain after cuts, which may begin at several heights, and the filling of what they leave.
+Raster<float> drained_by(int heights, Raster<float> const& dem, Valley const& valley, SparseHeights const& least,
+                         Run const& run) {
+    Raster<float> land = Carver(dem, valley.z, least, heights, run).cut();
+    land = unframed(land, dem.grid());
+    return flooded(std::move(land), valley.z, Lakes::slope, run);
+}
+
+} // namespace
+
+Raster<float> carve_depressions(Raster<float> const& dem, Valley const& valley, SparseHeights const& least,
                                 Run const& run) {
     // A pit below a river's banks may have to be partly filled before it is cut. A cut that is cheaper for its lake may
     // make others more expensive, so both strategies are tried on the whole terrain and the cheaper is kept.
-    bool const banks =
-        std::any_of(least.values().begin(), least.values().end(), [](float z) { return !std::isnan(z); });
-    std::optional<Raster<float>> best;
-    double moved = 0.0;
-    for (int const heights : {1, 8}) {
-        if (heights > 1 && !banks) {
-            break;
-        }
-        Raster<float> cut = Carver(dem, valley.z, least, heights, run).cut();
-        Raster<float> drained = flooded(unframed(cut, dem.grid()), valley.z, Lakes::slope, run);
-        double const volume = change_between(dem, drained).volume_m3();
-        if (!best || volume < moved) {
-            best = std::move(drained);
-            moved = volume;
-        }
+    Raster<float> from_pits = drained_by(1, dem, valley, least, run);
+    if (least.cell.empty()) {
+        return from_pits;
     }
-    return *std::move(best);
+    double const volume = change_between(dem, from_pits).volume_m3();
+    SparseHeights const kept = changed_cells(dem, from_pits);
+    from_pits = {};
+    Raster<float> drained = drained_by(8, dem, valley, least, run);
+    if (change_between(dem, drained).volume_m3() < volume) {
+        return drained;
+    }
+    drained = dem;
+    for (std::size_t k = 0; k < kept.cell.size(); ++k) {
+        drained[kept.cell[k]] = kept.z[k];
+    }
+    return drained;
 }
 
 Raster<float> carve(Raster<float> const& dem, Valley const& valley, Raster<float> const& least, Run const& run) {
     check_drainable(dem, valley, run);
     require_same_grid(least.grid(), dem.grid(), "flow.carve", "the least heights and the land",
                       "make both on one grid");
-    return undrained_cells(dem, valley.z, run).empty() ? dem : carve_depressions(dem, valley, least, run);
+    return undrained_cells(dem, valley.z, run).empty() ? dem
+                                                       : carve_depressions(dem, valley, sparse_heights(least), run);
 }
 
 } // namespace thalweg::flow

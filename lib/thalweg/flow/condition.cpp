@@ -127,14 +127,14 @@ void each_bank(Banked banks, Raster<float> const& dem, Raster<float> const& vall
     }
 }
 
-struct HeightBefore {
+struct HeightOfCell {
     CellIndex cell = 0;
     float z = 0.0F; ///< [m]
 };
 
 /// As change_between(), from a list of the cells that were raised; of several heights of a cell the lowest counts.
-DemChange change_of(std::vector<HeightBefore> raised, Raster<float> const& after) {
-    std::sort(raised.begin(), raised.end(), [](HeightBefore const& a, HeightBefore const& b) {
+DemChange change_of(std::vector<HeightOfCell> raised, Raster<float> const& after) {
+    std::sort(raised.begin(), raised.end(), [](HeightOfCell const& a, HeightOfCell const& b) {
         return a.cell != b.cell ? a.cell < b.cell : a.z < b.z;
     });
     DemChange change;
@@ -156,6 +156,23 @@ DemChange change_of(std::vector<HeightBefore> raised, Raster<float> const& after
     }
     change.raised_m3 += raised_m * cell_m2;
     return change;
+}
+
+/// The heights that keep rivers in their channels, of all cells beside them.
+SparseHeights least_of_banks(Raster<float> const& dem, Raster<float> const& valley, double margin_m, Run const& run) {
+    std::vector<HeightOfCell> all;
+    each_bank(Banked::all, dem, valley, margin_m, run, [&](CellIndex i, float z) { all.push_back({i, z}); });
+    std::ranges::sort(all, [](HeightOfCell const& a, HeightOfCell const& b) {
+        return a.cell != b.cell ? a.cell < b.cell : a.z > b.z;
+    });
+    SparseHeights least;
+    for (HeightOfCell const& one : all) {
+        if (least.cell.empty() || least.cell.back() != one.cell) { // the greatest
+            least.cell.push_back(one.cell);
+            least.z.push_back(one.z);
+        }
+    }
+    return least;
 }
 
 Valley no_rivers(Grid const& grid) {
@@ -216,7 +233,7 @@ ConditionedDem condition(Raster<float> dem, Valley const& valley, ConditionParam
     }
     check_drainable(dem, valley, run);
     double const margin_m = RaiseBanksParams{}.margin_m;
-    std::vector<HeightBefore> raised;
+    std::vector<HeightOfCell> raised;
     each_bank(Banked::too_low, dem, valley.z, margin_m, run, [&](CellIndex i, float least) {
         raised.push_back({i, dem[i]});
         dem[i] = least;
@@ -229,10 +246,7 @@ ConditionedDem condition(Raster<float> dem, Valley const& valley, ConditionParam
     if (params.method == Conditioning::fill) {
         out.dem = flooded(dem, valley.z, Lakes::slope, run);
     } else {
-        Raster<float> least(dem.grid(), std::numeric_limits<float>::quiet_NaN());
-        each_bank(Banked::all, dem, valley.z, margin_m, run,
-                  [&](CellIndex i, float z) { least[i] = std::isnan(least[i]) ? z : std::max(least[i], z); });
-        out.dem = carve_depressions(dem, valley, least, run);
+        out.dem = carve_depressions(dem, valley, least_of_banks(dem, valley.z, margin_m, run), run);
     }
     out.depressions = change_between(dem, out.dem);
     return out;

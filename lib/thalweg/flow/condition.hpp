@@ -18,7 +18,7 @@
 // Source: Barnes et al. 2014; least-cost breaching as Soille 2004 and Lindsay 2016; banks first is
 // ours: docs/decisions/0013-water.md.
 // Cost: docs/performance.md, 2048 x 2048: 3.8 ns a cell where all drains; filling relief 117 ns and
-// 21 bytes, carving it 334 ns and 64 bytes, carving noise 2.5 us. The look for undrained cells runs
+// 20 bytes, carving it 334 ns and 25 bytes, carving noise 2.5 us. The look for undrained cells runs
 // on all cores, the rest on one.
 // Not for: routing alone (route.hpp leaves the DEM as it is); real lakes and sinkholes, which
 // disappear. Noise as high as the relief makes carving slow: fill.

@@ -64,17 +64,21 @@ void search_rows(Raster<float> const& dem, Raster<float> const& rivers, std::int
 /// cells.
 class Flood {
 public:
-    Flood(Raster<float> const& dem, Raster<float> const& rivers, Lakes lakes, Run const& run)
-        : dem_(dem), rivers_(rivers), lakes_(lakes), run_(run), offsets_(d8_offsets(dem.grid())), level_(dem),
-          state_(dem.grid()) {}
+    Flood(Raster<float> dem, Raster<float> const& rivers, Lakes lakes, Run const& run)
+        : rivers_(rivers), lakes_(lakes), run_(run), offsets_(d8_offsets(dem.grid())), level_(std::move(dem)),
+          state_(level_.grid()) {}
 
-    Raster<float> fill(std::vector<CellIndex> const& undrained, std::int64_t cells_per_lake) {
-        if (dem_.cells() < cells_per_lake * std::ssize(undrained)) {
+    Raster<float> fill(std::vector<CellIndex> undrained, std::int64_t cells_per_lake) {
+        if (level_.cells() < cells_per_lake * std::ssize(undrained)) {
+            undrained = {};
             take_all();
         } else {
             bound(undrained);
+            for (std::size_t k = 0; k < wet_.size(); ++k) {
+                level_[wet_[k]] = land_[k];
+            }
         }
-        settle();
+        with_queue(level_.grid(), [this](auto queue) { settle(std::move(queue)); });
         return std::move(level_);
     }
 
@@ -84,23 +88,35 @@ private:
         dry,      ///< not raised
         wet,      ///< raised at most to level_
         on_shore, ///< beside the lake that grows
-        in_lake   ///< of the lake that grows
+        in_lake,  ///< of the lake that grows
+        at_rim,   ///< wet beside others, in the queue, at its own height so far
+        settled   ///< wet, at its level
     };
 
     float rise(float z) const { return lakes_ == Lakes::level ? z : just_above(z); }
 
     /// Whether water leaves at a cell. Any other has eight neighbours with data.
     bool is_outlet(CellIndex i) const {
-        return !std::isnan(rivers_[i]) || dem_.grid().on_border(dem_.grid().at(i)) ||
+        return !std::isnan(rivers_[i]) || level_.grid().on_border(level_.grid().at(i)) ||
                std::any_of(offsets_.begin(), offsets_.end(),
-                           [&](std::int64_t step) { return std::isnan(dem_[i + step]); });
+                           [&](std::int64_t step) { return std::isnan(level_[i + step]); });
     }
 
     void take_all() {
-        for (CellIndex i = 0; i < dem_.cells(); ++i) {
-            if (!std::isnan(dem_[i]) && !is_outlet(i)) {
-                state_[i] = wet;
-                wet_.push_back(i);
+        all_ = true;
+        for (CellIndex i = 0; i < level_.cells(); ++i) {
+            state_[i] = std::isnan(level_[i]) || is_outlet(i) ? unknown : wet;
+        }
+    }
+
+    template <class Visit> void each_wet(Visit visit) const {
+        if (!all_) {
+            std::ranges::for_each(wet_, visit);
+            return;
+        }
+        for (CellIndex i = 0; i < level_.cells(); ++i) {
+            if (state_[i] == wet) {
+                visit(i);
             }
         }
     }
@@ -120,7 +136,7 @@ private:
         for (std::size_t k = 0; k < wet_.size(); ++k) {
             float const least = just_above(level_[wet_[k]]);
             for (std::int64_t const step : offsets_) {
-                if (CellIndex const n = wet_[k] + step; state_[n] == unknown && dem_[n] < least) {
+                if (CellIndex const n = wet_[k] + step; state_[n] == unknown && level_[n] < least) {
                     descend(n);
                 }
             }
@@ -128,17 +144,18 @@ private:
     }
 
     void know(CellIndex i, float least) {
-        level_[i] = std::max(dem_[i], least);
-        state_[i] = least > dem_[i] ? wet : dry;
+        state_[i] = least > level_[i] ? wet : dry;
         if (state_[i] == wet) {
             wet_.push_back(i);
+            land_.push_back(level_[i]);
+            level_[i] = least;
         }
     }
 
     /// Adds the lowest cell around a lake to it until water leaves it there; then its cells are known.
     void grow_lake(CellIndex first) {
         LowestCell shore;
-        shore.emplace(dem_[first], first);
+        shore.emplace(level_[first], first);
         around_.clear();
         CellIndex way_out = first;
         for (bool on = true; on;) {
@@ -154,7 +171,7 @@ private:
                     if (state_[n] == unknown) {
                         state_[n] = on_shore;
                         around_.push_back(n);
-                        shore.emplace(dem_[n], n);
+                        shore.emplace(level_[n], n);
                     } else if (state_[n] == dry || state_[n] == wet) {
                         lowest = std::min(lowest, level_[n]);
                     }
@@ -170,11 +187,11 @@ private:
         while (!water.empty()) {
             CellIndex const i = water.top().second;
             water.pop();
-            Cell const at = dem_.grid().at(i);
+            Cell const at = level_.grid().at(i);
             for (Cell const step : d8_steps) {
                 Cell const to{at.col + step.col, at.row + step.row};
-                CellIndex const n = dem_.grid().index(to);
-                if (dem_.grid().contains(to) && state_[n] == in_lake) {
+                CellIndex const n = level_.grid().index(to);
+                if (level_.grid().contains(to) && state_[n] == in_lake) {
                     know(n, just_above(level_[i]));
                     water.emplace(level_[n], n);
                 }
@@ -187,68 +204,90 @@ private:
         }
     }
 
-    /// Follows the water of a cell to one that is known, or out; then all cells of its way are known.
+    /// Follows the water of a cell down to one beside a cell that is known, or out; then all cells of its way are
+    /// known.
     void descend(CellIndex i) {
         around_.clear();
-        while (state_[i] == unknown && !is_outlet(i)) {
+        float least = no_limit;
+        while (least == no_limit) {
             around_.push_back(i);
-            i += *std::min_element(offsets_.begin(), offsets_.end(),
-                                   [&](std::int64_t a, std::int64_t b) { return dem_[i + a] < dem_[i + b]; });
-        }
-        if (state_[i] == unknown) {
-            know(i, -no_limit);
+            if (is_outlet(i)) {
+                least = -no_limit;
+                break;
+            }
+            CellIndex lowest = i;
+            float known = no_limit; // the lowest level beside it
+            for (std::int64_t const step : offsets_) {
+                CellIndex const n = i + step;
+                if (state_[n] == unknown) {
+                    lowest = level_[n] < level_[lowest] ? n : lowest;
+                } else {
+                    known = std::min(known, level_[n]);
+                }
+            }
+            if (lowest == i || known <= level_[lowest]) {
+                least = just_above(known);
+            }
+            i = lowest;
         }
         for (auto above = around_.rbegin(); above != around_.rend(); ++above) {
-            know(*above, just_above(level_[i]));
-            i = *above;
+            know(*above, least);
+            least = just_above(level_[*above]);
         }
     }
 
-    /// Floods the wet cells from those beside them.
-    void settle() {
-        float const* const land = dem_.values().data();
+    /// The level of a wet cell beside others that are not.
+    float rim_level(CellIndex i) const {
+        float lowest = no_limit;
+        for (std::int64_t const step : offsets_) {
+            lowest = state_[i + step] <= dry ? std::min(lowest, level_[i + step]) : lowest;
+        }
+        return lowest < no_limit ? std::max(level_[i], rise(lowest)) : no_limit;
+    }
+
+    /// Floods the wet cells from those beside them. A cell keeps its own height until the water has come.
+    template <class Queue> void settle(Queue queue) {
         float* const level = level_.values().data(); // what is written to state may not change where these are
         std::uint8_t* const state = state_.values().data();
-        for (CellIndex const i : wet_) {
-            level[i] = no_limit;
-        }
-        FloodQueue queue;
-        for (CellIndex const i : wet_) {
-            float lowest = no_limit;
-            for (std::int64_t const step : offsets_) {
-                lowest = state[i + step] == wet ? lowest : std::min(lowest, level[i + step]);
+        std::int64_t count = 0;
+        each_wet([&](CellIndex i) {
+            ++count;
+            if (float const z = rim_level(i); z < no_limit) {
+                queue.push(z, i);
+                state[i] = at_rim;
             }
-            if (lowest < no_limit) {
-                level[i] = std::max(land[i], rise(lowest));
-                queue.push(level[i], i);
-            }
-        }
+        });
         std::int64_t popped = 0;
         for (CellIndex i = queue.pop(); i >= 0; i = queue.pop()) {
             if (++popped % cells_between_checks == 0) {
-                run_.at(std::min(1.0, static_cast<double>(popped) / static_cast<double>(wet_.size())), "carve");
+                run_.at(std::min(1.0, static_cast<double>(popped) / static_cast<double>(count)), "carve");
             }
-            state[i] = dry;
+            if (state[i] == at_rim) {
+                level[i] = rim_level(i);
+                state[i] = settled;
+            }
             float const least = rise(level[i]);
             for (std::int64_t const step : offsets_) {
                 CellIndex const n = i + step;
-                if (state[n] == wet) {
-                    state[n] = dry;
-                    level[n] = std::min(level[n], std::max(land[n], least));
+                if (state[n] == wet || state[n] == at_rim) {
+                    float const z = std::max(level[n], least);
+                    level[n] = state[n] == wet ? z : std::min(rim_level(n), z);
+                    state[n] = settled;
                     queue.push(level[n], n);
                 }
             }
         }
     }
 
-    Raster<float> const& dem_;
     Raster<float> const& rivers_;
     Lakes lakes_;
     Run const& run_;
     std::array<std::int64_t, 8> offsets_;
     Raster<float> level_;
-    Raster<std::uint8_t> state_; ///< as State
-    std::vector<CellIndex> wet_;
+    Raster<std::uint8_t> state_;    ///< as State
+    bool all_ = false;              ///< all cells are wet but those where water leaves
+    std::vector<CellIndex> wet_;    ///< otherwise
+    std::vector<float> land_;       ///< their heights
     std::vector<CellIndex> around_; ///< a lake, or above a cell
 };
 
@@ -271,9 +310,10 @@ std::vector<CellIndex> undrained_cells(Raster<float> const& dem, Raster<float> c
     return all;
 }
 
-Raster<float> flooded(Raster<float> const& dem, Raster<float> const& rivers, Lakes lakes, Run const& run,
+Raster<float> flooded(Raster<float> dem, Raster<float> const& rivers, Lakes lakes, Run const& run,
                       std::int64_t cells_per_lake) {
-    return Flood(dem, rivers, lakes, run).fill(undrained_cells(dem, rivers, run), cells_per_lake);
+    std::vector<CellIndex> undrained = undrained_cells(dem, rivers, run);
+    return Flood(std::move(dem), rivers, lakes, run).fill(std::move(undrained), cells_per_lake);
 }
 
 } // namespace thalweg::flow

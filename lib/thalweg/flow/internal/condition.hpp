@@ -53,7 +53,7 @@ std::vector<CellIndex> undrained_cells(Raster<float> const& dem, Raster<float> c
 /// the lakes of undrained cells can reach. Changes nothing but the time.
 ///
 /// Source: \cite barnes2014.
-Raster<float> flooded(Raster<float> const& dem, Raster<float> const& rivers, Lakes lakes, Run const& run,
+Raster<float> flooded(Raster<float> dem, Raster<float> const& rivers, Lakes lakes, Run const& run,
                       std::int64_t cells_per_lake = 16);
 
 /// Checks the input of fill(), carve() and confine_channels().
@@ -84,10 +84,22 @@ Raster<float> fill(Raster<float> const& dem, Valley const& valley, Run const& ru
 /// Source: Soille 2004; Lindsay 2016 (least-cost breaching); \cite barnes2014.
 Raster<float> carve(Raster<float> const& dem, Valley const& valley, Raster<float> const& least, Run const& run = {});
 
+/// [m] Heights of some cells.
+struct SparseHeights {
+    std::vector<CellIndex> cell; ///< ascending
+    std::vector<float> z;        ///< by place in cell
+
+    /// \param i one of the cells
+    float of(CellIndex i) const;
+};
+
+/// \param by_cell [m] NaN: no height
+SparseHeights sparse_heights(Raster<float> const& by_cell);
+
 /// What carve() does where something does not drain yet.
 /// \param dem,valley,least as for carve(), checked
 /// \return as carve(), also of terrain that drains already: that terrain
-Raster<float> carve_depressions(Raster<float> const& dem, Valley const& valley, Raster<float> const& least,
+Raster<float> carve_depressions(Raster<float> const& dem, Valley const& valley, SparseHeights const& least,
                                 Run const& run);
 
 struct RaiseBanksParams {

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include <thalweg/core/cells.hpp>
@@ -17,23 +19,23 @@
 namespace thalweg::flow {
 
 /// A queue of cells by height, first in first out among equals (both zeros are equal). A cell must not be below the one
-/// popped last, as in a flood. Source: radix heap of \cite ahuja1990.
-class FloodQueue {
+/// popped last, as in a flood. `Index` holds any cell. Source: radix heap of \cite ahuja1990.
+template <class Index> class FloodQueue {
 public:
-    void push(float z, std::int64_t cell) { put({rank_of(z), cell}); }
+    void push(float z, std::int64_t cell) { put({rank_of(z), static_cast<Index>(cell)}); }
 
     /// \return the lowest cell; -1: empty.
     std::int64_t pop() {
         if (next_ == lowest_.size() && !advance()) {
             return -1;
         }
-        return lowest_[next_++].cell;
+        return static_cast<std::int64_t>(lowest_[next_++].cell);
     }
 
 private:
     struct Entry {
         std::uint32_t rank = 0;
-        std::int64_t cell = 0;
+        Index cell = 0;
     };
 
     /// Maps floats to unsigned numbers in the same order.
@@ -82,17 +84,25 @@ private:
     std::array<std::vector<Entry>, 32> above_; ///< by the highest bit in which a rank differs from last_
 };
 
+/// Calls flood with an empty queue that holds the cells of a grid.
+template <class Flood> auto with_queue(Grid const& grid, Flood flood) {
+    if (std::cmp_less_equal(grid.cells(), std::numeric_limits<std::uint32_t>::max())) {
+        return flood(FloodQueue<std::uint32_t>());
+    }
+    return flood(FloodQueue<std::int64_t>());
+}
+
 /// Fills a framed DEM to its spill levels.
 /// \param is_outlet called with a cell; true: water leaves there, besides at the border and beside no data
 /// \return by cell: direction towards the cell from which the flood reached it
 ///
 /// Source: \cite barnes2014.
-template <class IsOutlet>
-Raster<Direction> priority_flood(Raster<float>& level, IsOutlet is_outlet, char const* stage, Run const& run) {
+template <class Queue, class IsOutlet>
+Raster<Direction> priority_flood(Queue queue, Raster<float>& level, IsOutlet is_outlet, char const* stage,
+                                 Run const& run) {
     constexpr auto unreached = static_cast<Direction>(253);
     Raster<Direction> direction(level.grid(), unreached);
     auto const offsets = d8_offsets(level.grid());
-    FloodQueue queue;
     for (std::int64_t i = 0; i < level.cells(); ++i) {
         if (std::isnan(level[i])) {
             direction[i] = Direction::no_data;
@@ -118,6 +128,12 @@ Raster<Direction> priority_flood(Raster<float>& level, IsOutlet is_outlet, char 
         }
     }
     return direction;
+}
+
+template <class IsOutlet>
+Raster<Direction> priority_flood(Raster<float>& level, IsOutlet is_outlet, char const* stage, Run const& run) {
+    return with_queue(level.grid(),
+                      [&](auto queue) { return priority_flood(std::move(queue), level, is_outlet, stage, run); });
 }
 
 } // namespace thalweg::flow
