@@ -105,6 +105,18 @@ TEST(BoxMeans, OfAMaskMarkWhatIsMarkedByHalf) {
     EXPECT_EQ(half[1], 0);
 }
 
+TEST(BoxMeans, MarksKeepThinLines) {
+    Mask fine(Grid{10, 7, 1.0, 0.0, 7.0, ""});
+    for (std::int64_t row = 0; row < 7; ++row) {
+        fine[Cell{4, row}] = 1;
+    }
+    Mask const marks = box_marks(fine, 4); // a cell is 2.5 wide, and column 4 ends at 5
+    ASSERT_EQ(marks.height(), 3);
+    for (std::int64_t i = 0; i < marks.cells(); ++i) {
+        EXPECT_EQ(marks[i], marks.grid().at(i).col == 1 ? 1 : 0) << i;
+    }
+}
+
 TEST(BlockMaxima, AreTheHighestOfEachBlock) {
     Raster<float> const fine = rough(11, 7);
     Raster<float> const maxima = block_maxima(fine, 3);

@@ -39,6 +39,17 @@ TEST(Comparison, ColoursEndAtARoundDifference) {
     EXPECT_EQ(limit_of_differences(all(std::numeric_limits<float>::quiet_NaN())), 1.0);
 }
 
+TEST(Comparison, ColoursEndAtThe98thPercentile) {
+    Raster<float> difference({53, 1, 10.0, 0.0, 10.0, ""}, 0.5F);
+    difference[0] = std::numeric_limits<float>::quiet_NaN();
+    difference[1] = std::numeric_limits<float>::infinity();
+    difference[20] = -2.0F; // of 51 sizes the last but one
+    difference[30] = 100.0F;
+    EXPECT_EQ(limit_of_differences(difference), 2.0);
+    difference[20] = -2.0000002F;
+    EXPECT_EQ(limit_of_differences(difference), 5.0);
+}
+
 TEST(Comparison, LowerIsBlueHigherRedAndDividesHaveTheirColours) {
     Raster<float> difference = all(-100.0F);
     Raster<std::uint8_t> const shade(difference.grid(), 181);

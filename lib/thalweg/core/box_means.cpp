@@ -124,6 +124,19 @@ Mask box_means(Mask const& fine, std::int64_t columns, Run const& run) {
     return out;
 }
 
+Mask box_marks(Mask const& fine, std::int64_t columns) {
+    Mask out(coarser(fine.grid(), columns));
+    for (std::int64_t i = 0; i < fine.cells(); ++i) {
+        if (fine[i] != 0) {
+            Cell const c =
+                fine.grid().at(i); // its centre is half a cell farther: twice as many halves are whole numbers
+            out[Cell{(2 * c.col + 1) * columns / (2 * fine.width()), (2 * c.row + 1) * columns / (2 * fine.width())}] =
+                1;
+        }
+    }
+    return out;
+}
+
 Raster<float> block_maxima(Raster<float> const& fine, std::int64_t side, Run const& run) {
     Grid grid = fine.grid();
     grid.width = (grid.width + side - 1) / side;

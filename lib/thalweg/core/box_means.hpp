@@ -31,6 +31,12 @@ Mask box_means(Mask const& fine, std::int64_t columns, Run const& run = {});
 
 /// \internal
 /// \param fine at least one cell
+/// \param columns [1, width of the mask]
+/// \return on coarser(): whether the centre of a marked cell is in a cell, which keeps thin lines
+Mask box_marks(Mask const& fine, std::int64_t columns);
+
+/// \internal
+/// \param fine at least one cell
 /// \param side [cells] >= 1 of a block
 /// \return by block the highest value, NaN where it has none; the last column and row of blocks may be narrower
 Raster<float> block_maxima(Raster<float> const& fine, std::int64_t side, Run const& run = {});

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -78,8 +81,12 @@ Relief grey_relief(Raster<std::uint8_t> const& shade, std::int64_t block) {
     });
 }
 
+double limit_of(ComparisonSheet const& sheet) {
+    return sheet.limit_m ? *sheet.limit_m : limit_of_differences(sheet.difference);
+}
+
 Relief difference_relief(ComparisonSheet const& sheet, std::int64_t block) {
-    double const limit_m = limit_of_differences(sheet.difference);
+    double const limit_m = limit_of(sheet);
     return pixels_of(sheet.difference.grid(), block, [&](Cell from, Cell to) {
         double sum = 0.0;
         double light = 0.0;
@@ -111,6 +118,12 @@ Relief difference_relief(ComparisonSheet const& sheet, std::int64_t block) {
 std::int64_t block_for(Grid const& grid, double width_px) {
     return std::max<std::int64_t>(1,
                                   static_cast<std::int64_t>(static_cast<double>(grid.width) / std::max(1.0, width_px)));
+}
+
+constexpr double units_a_px = 0.0085; ///< of the sheet's width
+
+double panel_of(double width, double gap) {
+    return (width - 4.0 * gap) / 3.0;
 }
 
 /// Samples of colours with words, in a row.
@@ -147,22 +160,43 @@ private:
     double unit_;
 };
 
+/// The 98th percentile of sizes, 0 where there are none: by the upper half of the bits, which grow with the number,
+/// then by the lower half.
+float size_of_most(Raster<float> const& difference) {
+    constexpr double most = 0.98;
+    constexpr std::uint32_t half = 1U << 16U;
+    auto const counted = [&](std::uint32_t upper) {
+        std::vector<std::int64_t> counts(half);
+        for (float const z : difference.values()) {
+            auto const bits = std::bit_cast<std::uint32_t>(std::fabs(z));
+            if (std::isfinite(z) && (upper == half || bits / half == upper)) {
+                ++counts[upper == half ? bits / half : bits % half];
+            }
+        }
+        return counts;
+    };
+    auto const reached = [](std::vector<std::int64_t> const& counts, std::int64_t& rank) {
+        std::uint32_t k = 0;
+        for (; rank >= counts[k]; ++k) {
+            rank -= counts[k];
+        }
+        return k;
+    };
+    std::vector<std::int64_t> const by_upper = counted(half);
+    std::int64_t const all = std::accumulate(by_upper.begin(), by_upper.end(), std::int64_t{0});
+    if (all == 0) {
+        return 0.0F;
+    }
+    auto rank = static_cast<std::int64_t>(most * static_cast<double>(all - 1));
+    std::uint32_t const upper = reached(by_upper, rank);
+    std::uint32_t const lower = reached(counted(upper), rank);
+    return std::bit_cast<float>(upper * half + lower);
+}
+
 } // namespace
 
 double limit_of_differences(Raster<float> const& difference) {
-    constexpr double most = 0.98;
-    std::vector<float> sizes;
-    for (float const z : difference.values()) {
-        if (std::isfinite(z)) {
-            sizes.push_back(std::fabs(z));
-        }
-    }
-    if (sizes.empty()) {
-        return 1.0;
-    }
-    auto const at = sizes.begin() + static_cast<std::ptrdiff_t>(most * static_cast<double>(sizes.size() - 1));
-    std::nth_element(sizes.begin(), at, sizes.end());
-    auto const value = static_cast<double>(*at);
+    auto const value = static_cast<double>(size_of_most(difference));
     if (!(value > 0.0)) {
         return 1.0;
     }
@@ -190,14 +224,19 @@ Picture differences(ComparisonSheet const& sheet, ComparisonParams const& params
     });
 }
 
+std::int64_t columns_of_comparison(ComparisonParams const& params) {
+    double const width = params.width_px;
+    return static_cast<std::int64_t>(std::ceil(panel_of(width, units_a_px * width) - 1e-6));
+}
+
 Picture comparison(ComparisonSheet const& sheet, ComparisonParams const& params) {
     require_in("draw.comparison", "width_px", params.width_px, Range::between(200, 8000), "pixels");
     require_sheet(sheet, "draw.comparison");
     Grid const& grid = sheet.difference.grid();
     double const width = params.width_px;
-    double const unit = 0.0085 * width;
+    double const unit = units_a_px * width;
     double const gap = unit;
-    double const panel = (width - 4.0 * gap) / 3.0;
+    double const panel = panel_of(width, gap);
     double const px_per_cell = panel / static_cast<double>(grid.width);
     double const panel_height = px_per_cell * static_cast<double>(grid.height);
     double const top = params.title.empty() ? 2.6 * unit : 5.0 * unit;
@@ -221,7 +260,7 @@ Picture comparison(ComparisonSheet const& sheet, ComparisonParams const& params)
             left += panel + gap;
         }
         Legend legend(canvas, {gap, top + panel_height + 2.4 * unit}, unit);
-        legend.bar(limit_of_differences(sheet.difference));
+        legend.bar(limit_of(sheet));
         legend.sample(divide_of_both, "divides of both");
         legend.sample(divide_of_dem, "of the DEM alone");
         legend.sample(divide_of_terrain, "of this terrain alone");

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include <thalweg/core/raster.hpp>
@@ -17,6 +18,8 @@ struct ComparisonSheet {
     Raster<float> const& difference;          ///< [m] terrain minus DEM; NaN: not known
     Mask const& divides_of_dem;
     Mask const& divides; ///< of the terrain
+    /// [m] as limit_of_differences(), of the rasters that these are means of; none: of difference
+    std::optional<double> limit_m = {};
 };
 
 /// Options of differences() and comparison().
@@ -38,6 +41,10 @@ double limit_of_differences(Raster<float> const& difference);
 /// \return one pixel or less a cell where the grid is wider than width_px
 /// \throws BadInput when the rasters differ in size or have no cells
 Picture differences(ComparisonSheet const& sheet, ComparisonParams const& params = {});
+
+/// \param params width of a comparison
+/// \return columns of pixels that each of its maps has: more cells in a row are not seen
+std::int64_t columns_of_comparison(ComparisonParams const& params = {});
 
 /// Draws hillshades of the DEM and the terrain and the map of differences beside one another, with a legend.
 /// \throws BadInput as differences()

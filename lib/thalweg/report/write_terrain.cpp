@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/box_means.hpp>
 #include <thalweg/core/run/beside.hpp>
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
@@ -145,16 +146,39 @@ void write_tin(make::MakeResult const& t, io::OutputFolder const& out, Run const
 void write_dem(make::MakeResult const& t, io::OutputFolder const& out, Run const& run) {
     HeightUnit const unit = t.recipe.output.units;
     Raster<float> const& dem = t.terrain.ground.dem;
-    io::write_dem(unit == HeightUnit::metre ? dem : make::in_unit(dem, unit), out.path("dem.tif"), unit, run);
+    if (unit == HeightUnit::metre) {
+        io::write_dem(dem, out.path("dem.tif"), run);
+    } else {
+        io::write_dem(make::in_unit(dem, unit), out.path("dem.tif"), unit, run);
+    }
 }
 
-/// The hillshade of the DEM that a terrain is compared with: the terrain minus the difference.
-Raster<std::uint8_t> shade_of_dem(make::Against const& against, Raster<float> const& dem) {
-    Raster<float> real(dem.grid());
-    for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        real[i] = dem[i] - against.difference[i];
+/// What a comparison shows: rasters of at most so many columns.
+struct ShownAgainst {
+    Raster<std::uint8_t> shade_of_dem;
+    Raster<std::uint8_t> shade;
+    Raster<float> difference;
+    Mask divides_of_dem;
+    Mask divides;
+    double limit_m = 1.0;
+
+    draw::ComparisonSheet sheet() const { return {shade_of_dem, shade, difference, divides_of_dem, divides, limit_m}; }
+};
+
+ShownAgainst shown_against(make::Against const& against, Raster<float> const& dem, std::int64_t most_columns) {
+    std::int64_t const columns = std::min(most_columns, dem.width());
+    Raster<float> land = box_means(dem, columns);
+    ShownAgainst shown;
+    shown.shade = io::hillshade(land);
+    shown.difference = box_means(against.difference, columns);
+    for (std::int64_t i = 0; i < land.cells(); ++i) {
+        land[i] -= shown.difference[i]; // now the DEM
     }
-    return io::hillshade(real);
+    shown.shade_of_dem = io::hillshade(land);
+    shown.divides_of_dem = box_marks(against.divides_of_dem, columns);
+    shown.divides = box_marks(against.divides, columns);
+    shown.limit_m = draw::limit_of_differences(against.difference);
+    return shown;
 }
 
 ElevatedNetwork const* network_of(make::MakeResult const& t) {
@@ -374,20 +398,17 @@ PageParams page_params_of(make::MakeResult const& made, std::string recipe) {
 }
 
 draw::Picture differences_against(make::Against const& against, make::Terrain const& terrain, int width_px) {
-    Raster<std::uint8_t> const shade = io::hillshade(terrain.ground.dem);
     draw::ComparisonParams params;
     params.width_px = width_px;
-    return draw::differences({shade, shade, against.difference, against.divides_of_dem, against.divides}, params);
+    return draw::differences(shown_against(against, terrain.ground.dem, width_px).sheet(), params);
 }
 
 draw::Picture comparison_against(make::Against const& against, make::Terrain const& terrain, std::string const& title) {
-    Raster<float> const& dem = terrain.ground.dem;
     draw::ComparisonParams params;
     params.title = title;
     params.dem = against.dem;
-    return draw::comparison(
-        {shade_of_dem(against, dem), io::hillshade(dem), against.difference, against.divides_of_dem, against.divides},
-        params);
+    return draw::comparison(shown_against(against, terrain.ground.dem, draw::columns_of_comparison(params)).sheet(),
+                            params);
 }
 
 void write_rivers(make::MakeResult const& made, std::string const& path, Run const& run) {
