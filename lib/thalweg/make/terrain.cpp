@@ -125,21 +125,25 @@ struct ConditionedDem {
 };
 
 /// Conditions a surface. Water leaves the land in sinks: meanwhile they are holes in it.
-ConditionedDem conditioned(recipe::Recipe const& recipe, Raster<float> dem, Valley valley, StreamNetwork const& network,
-                           StageLog& stage_log, Run const& run) {
+ConditionedDem conditioned(recipe::Recipe const& recipe, Raster<float> dem, Valley const& rivers,
+                           StreamNetwork const& network, StageLog& stage_log, Run const& run) {
     if (!recipe::stage::carve.runs(recipe)) {
         return {std::move(dem)};
     }
     constexpr float hole = std::numeric_limits<float>::quiet_NaN();
-    if (!recipe.network) {
-        valley.z = Raster<float>(dem.grid(), hole);
-    }
     std::vector<CellIndex> const sinks = sinks_of(recipe, dem, network);
+    Valley changed;
+    if (!recipe.network) {
+        changed.z = Raster<float>(dem.grid(), hole);
+    } else if (!sinks.empty()) {
+        changed = rivers;
+    }
     std::vector<float> heights;
     for (CellIndex const sink : sinks) {
         heights.push_back(std::exchange(dem[sink], hole));
-        valley.z[sink] = hole;
+        changed.z[sink] = hole;
     }
+    Valley const& valley = changed.z.cells() > 0 ? changed : rivers;
     flow::ConditionedDem result = stage_log.stage(recipe::stage::carve.name, [&] {
         return flow::condition(std::move(dem), valley, {*recipe.surface->drain}, run);
     });
