@@ -136,7 +136,7 @@ void BM_studio_draw(benchmark::State& state) {
         return Vec2{grid.west + x * grid.cell_m, grid.north - y * grid.cell_m};
     };
     auto const draw = [&](studio::DrawStep const& step) {
-        studio::Drawn after = studio::drawn(drawing, step);
+        studio::DrawResult after = studio::drawn(drawing, step);
         document.edit(studio::edit_between(
             document.document(), drawing, after,
             [&](auto const& key, auto const& name, auto const& write) { return document.put(key, name, write); }));
