@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/blend/deform.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -79,12 +80,7 @@ DeformedDem with_handles_only(Raster<float> const& target, std::vector<Handle> c
 }
 
 bool is_empty(Mask const& mask) {
-    for (std::uint8_t const m : mask.values()) {
-        if (m != 0) {
-            return false;
-        }
-    }
-    return true;
+    return std::ranges::all_of(mask.values(), [](std::uint8_t m) { return m == 0; });
 }
 
 } // namespace

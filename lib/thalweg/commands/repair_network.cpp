@@ -40,6 +40,7 @@ constexpr double greatest_coordinate = 1e18; // beyond this, measure::check_topo
 bool is_number(double c) {
     return std::fabs(c) < greatest_coordinate;
 }
+
 /// The nodes with positions, by id and by position.
 class Nodes {
 public:
@@ -141,19 +142,8 @@ public:
         if (named_back) {
             std::swap(from, to);
         }
-        if (length_in_plan(line) <= 0.0) {
-            if (from == nullptr || to == nullptr || in_plan(*from) == in_plan(*to)) {
-                say("left_out", number, line.empty() ? Vec2{} : in_plan(line.front()), 0.0,
-                    fmt::format("arc {}: has no length and joins no two nodes; it is left out", number));
-                return;
-            }
-            line = {*from, *to};
-            say("drawn", number, in_plan(*from), length_in_plan(line),
-                fmt::format("arc {}: has no line; it is drawn straight from node {} to node {}", number, arc.from_node,
-                            arc.to_node));
-        } else {
-            put_onto(from, line.front(), number);
-            put_onto(to, line.back(), number);
+        if (!reach_ends(line, arc, from, to)) {
+            return;
         }
         fill_line(line, from, to);
         if (arc.is_channel) {
@@ -275,6 +265,27 @@ private:
     static bool is_named_back(std::vector<Vec3> const& line, Vec3 const* from, Vec3 const* to) {
         return from != nullptr && to != nullptr && !line.empty() && in_plan(*from) != in_plan(*to) &&
                in_plan(line.front()) == in_plan(*to) && in_plan(line.back()) == in_plan(*from);
+    }
+
+    /// Lets a line reach the nodes at its ends; one without length is drawn from node to node.
+    /// \return false: it is left out
+    bool reach_ends(std::vector<Vec3>& line, NetworkFile::FileArc const& arc, Vec3 const* from, Vec3 const* to) {
+        std::int64_t const number = number_of(arc);
+        if (length_in_plan(line) > 0.0) {
+            put_onto(from, line.front(), number);
+            put_onto(to, line.back(), number);
+            return true;
+        }
+        if (from == nullptr || to == nullptr || in_plan(*from) == in_plan(*to)) {
+            say("left_out", number, line.empty() ? Vec2{} : in_plan(line.front()), 0.0,
+                fmt::format("arc {}: has no length and joins no two nodes; it is left out", number));
+            return false;
+        }
+        line = {*from, *to};
+        say("drawn", number, in_plan(*from), length_in_plan(line),
+            fmt::format("arc {}: has no line; it is drawn straight from node {} to node {}", number, arc.from_node,
+                        arc.to_node));
+        return true;
     }
 
     /// Moves an end without a node at its position onto its own node.
