@@ -147,6 +147,34 @@ TEST(FreeSquares, are_free_and_large) {
     }));
 }
 
+// Law: a stamp does what its sites do one by one.
+TEST(FreeSquares, stamps_occupy_all_their_sites) {
+    ASSERT_TRUE(rc::check([] {
+        std::vector<Site> sites;
+        for (int i = *rc::gen::inRange(1, 8); i > 0; --i) {
+            sites.push_back({*rc::gen::inRange(-30, 31), *rc::gen::inRange(-30, 31)});
+        }
+        Stamp const stamp(sites);
+        FreeSquares at_once;
+        FreeSquares one_by_one;
+        at_once.reach(200);
+        one_by_one.reach(200);
+        for (int i = 0; i < 3; ++i) {
+            Site const middle{*rc::gen::inRange(-100, 101), *rc::gen::inRange(-100, 101)};
+            at_once.occupy(middle, stamp);
+            for (Site const s : sites) {
+                one_by_one.occupy({middle.x + s.x, middle.y + s.y});
+            }
+        }
+        for (std::int32_t y = -200; y <= 200; ++y) {
+            for (std::int32_t x = -200; x <= 200; ++x) {
+                RC_ASSERT(at_once.free_half({x, y}) == one_by_one.free_half({x, y}));
+                RC_ASSERT(at_once.occupied({x, y}) == one_by_one.occupied({x, y}));
+            }
+        }
+    }));
+}
+
 // Law: 1/z^k, k = 1 ... 4, is harmonic outside the circle and falls to 0, so that its mean over the hits is its value
 // at the start, and 0 over births, which come from infinity. Rounding to the lattice shifts it by no more than
 // 1/radius^2.

@@ -112,6 +112,22 @@ void FreeSquares::Blocks::occupy(std::size_t col, std::size_t row) {
     }
 }
 
+Stamp::Stamp(std::vector<Site> sites) : sites_(std::move(sites)) {
+    for (Site const s : sites_) {
+        reach_ = std::max(reach_, chebyshev(s) + 15);
+    }
+    closeness_.resize(static_cast<std::size_t>((2 * reach_ + 1) * stride()), 0);
+    for (Site const s : sites_) {
+        for (std::int32_t y = -15; y <= 15; ++y) {
+            for (std::int32_t x = -15; x <= 15; ++x) {
+                std::uint8_t& value =
+                    closeness_[static_cast<std::size_t>((s.y + y + reach_) * stride() + s.x + x + reach_ + 16)];
+                value = std::max(value, static_cast<std::uint8_t>(16 - chebyshev({x, y})));
+            }
+        }
+    }
+}
+
 FreeSquares::FreeSquares()
     : near_(first_half), blocks_(blocks_across(first_half, 16)), great_blocks_(blocks_across(first_half, 256)) {}
 
@@ -125,22 +141,31 @@ void FreeSquares::occupy_block(std::size_t col, std::size_t row) {
     }
 }
 
-void FreeSquares::occupy(Site site) {
-    auto const x = static_cast<std::size_t>(site.x + half());
-    auto const y = static_cast<std::size_t>(site.y + half());
-    for (std::size_t tile_row = (y - 15) / 16; tile_row <= (y + 15) / 16; ++tile_row) {
-        std::size_t const top = std::max(16 * tile_row, y - 15);
-        std::size_t const bottom = std::min(16 * tile_row + 15, y + 15);
-        for (std::size_t tile_col = (x - 15) / 16; tile_col <= (x + 15) / 16; ++tile_col) {
+void FreeSquares::occupy(Site middle, Stamp const& stamp) {
+    auto const x = static_cast<std::size_t>(middle.x + half());
+    auto const y = static_cast<std::size_t>(middle.y + half());
+    auto const reach = static_cast<std::size_t>(stamp.reach());
+    for (std::size_t tile_row = (y - reach) / 16; tile_row <= (y + reach) / 16; ++tile_row) {
+        std::size_t const top = std::max(16 * tile_row, y - reach);
+        std::size_t const bottom = std::min(16 * tile_row + 15, y + reach);
+        for (std::size_t tile_col = (x - reach) / 16; tile_col <= (x + reach) / 16; ++tile_col) {
             std::uint8_t* const tile = near_.tile_at(tile_col, tile_row);
-            std::size_t const from = 16 * tile_col + 32 - x;
+            std::size_t const from = 16 * tile_col + reach + 16 - x;
             for (std::size_t r = top; r <= bottom; ++r) {
-                raise(tile + 16 * (r % 16), profile[r < y ? y - r : r - y].data() + from);
+                auto const dy = static_cast<std::int32_t>(r) - static_cast<std::int32_t>(y);
+                raise(tile + 16 * (r % 16), stamp.row(dy) + from);
             }
         }
     }
-    auto const beside = static_cast<std::size_t>(half() / 16);
-    occupy_block(x / 16 + beside, y / 16 + beside);
+    for (Site const o : stamp.sites()) {
+        occupy_block(static_cast<std::size_t>(middle.x + o.x + 2 * half()) / 16,
+                     static_cast<std::size_t>(middle.y + o.y + 2 * half()) / 16);
+    }
+}
+
+void FreeSquares::occupy(Site site) {
+    static Stamp const single({{0, 0}});
+    occupy(site, single);
 }
 
 void FreeSquares::reach(std::int32_t radius) {

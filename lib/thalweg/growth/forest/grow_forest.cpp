@@ -94,14 +94,19 @@ Disc::Disc(std::int64_t radius) {
         }
         reach_.push_back(col);
     }
-    for (std::int64_t row = 1 - radius; row < radius; ++row) {
+}
+
+std::vector<Site> Disc::rim() const {
+    std::vector<Site> rim;
+    for (std::int64_t row = -reach(); row <= reach(); ++row) {
         std::int64_t const beyond = std::min(reach(row - 1), reach(row + 1));
         for (std::int64_t col = -reach(row); col <= reach(row); ++col) {
             if (std::abs(col) == reach(row) || std::abs(col) > beyond) {
-                rim_.push_back({static_cast<std::int32_t>(col), static_cast<std::int32_t>(row)});
+                rim.push_back({static_cast<std::int32_t>(col), static_cast<std::int32_t>(row)});
             }
         }
     }
+    return rim;
 }
 
 std::int64_t take_piece(Cell from, Mask& left, Run const& run) {
@@ -210,7 +215,7 @@ private:
 } // namespace
 
 ForestGrowth::ForestGrowth(Mask const& region, std::vector<Cell> const& seeds, std::int64_t step, Run const& run)
-    : grid_(region.grid()), step_(step), disc_(step), walk_(reached_from(seeds, region, run)),
+    : grid_(region.grid()), step_(step), disc_(step), rim_(disc_.rim()), walk_(reached_from(seeds, region, run)),
       first_(blocks_of(grid_, step), -1), state_(grid_, State::closed) {
     run.check();
     for (std::int64_t row = 0; row < grid_.height; ++row) {
@@ -283,10 +288,14 @@ void ForestGrowth::place(Cell c, std::int64_t parent) {
         }
     }
     // Walkers come from outside: they meet the rim first.
-    for (Site const o : disc_.rim()) {
-        Cell const at = moved(c, o);
-        if (grid_.contains(at) && walk_.inside(at)) {
-            walk_.occupy(at);
+    auto const inside = [&](Site o) { return grid_.contains(moved(c, o)) && walk_.inside(moved(c, o)); };
+    if (std::ranges::all_of(rim_.sites(), inside)) {
+        walk_.occupy(c, rim_);
+        return;
+    }
+    for (Site const o : rim_.sites()) {
+        if (inside(o)) {
+            walk_.occupy(moved(c, o));
         }
     }
 }

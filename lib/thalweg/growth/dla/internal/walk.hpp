@@ -117,6 +117,26 @@ private:
     std::unique_ptr<std::uint8_t[], Free> bytes_;
 };
 
+/// Sites that are occupied together, and the closeness that they give to those around them.
+class Stamp {
+public:
+    /// \param sites around the stamp's middle, at least one
+    explicit Stamp(std::vector<Site> sites);
+
+    std::vector<Site> const& sites() const { return sites_; }
+    std::int32_t reach() const { return reach_; } ///< the closeness is 0 farther from the middle, in rows and columns
+    /// Closeness in a row, by x + reach() + 16; beyond the reach are 16 zeros on either side.
+    /// \param y [-reach(), reach()]
+    std::uint8_t const* row(std::int32_t y) const { return closeness_.data() + (y + reach_) * stride(); }
+
+private:
+    std::int32_t stride() const { return 2 * reach_ + 1 + 2 * 16; }
+
+    std::vector<Site> sites_;
+    std::int32_t reach_ = 0;
+    std::vector<std::uint8_t> closeness_;
+};
+
 /// The size of the free square around a site: the Chebyshev distance to the nearest occupied site, capped at 16, and
 /// the same on blocks of 16 x 16 and of 256 x 256 sites.
 class FreeSquares {
@@ -130,6 +150,8 @@ public:
     /// as wide.
     std::int32_t half() const { return near_.half(); }
 
+    /// Occupies the sites of a stamp, which lie in the square.
+    void occupy(Site middle, Stamp const& stamp);
     /// Occupies a site in the square.
     void occupy(Site site);
 

@@ -37,6 +37,8 @@ public:
     bool occupied(Cell c) const { return trees_.occupied(site(c)); }
     /// Occupies a cell of the region.
     void occupy(Cell c) { trees_.occupy(site(c)); }
+    /// Occupies the sites of a stamp, all in the region.
+    void occupy(Cell middle, Stamp const& stamp) { trees_.occupy(site(middle), stamp); }
 
     /// Whether a 4-neighbour is occupied.
     bool beside_a_tree(Cell c) const;
@@ -73,11 +75,10 @@ public:
     std::int64_t reach(std::int64_t row) const {
         return std::abs(row) < std::ssize(reach_) ? reach_[static_cast<std::size_t>(std::abs(row))] : -1;
     }
-    std::vector<Site> const& rim() const { return rim_; } ///< those with a neighbour that is not in it
+    std::vector<Site> rim() const; ///< those with a neighbour that is not in it
 
 private:
     std::vector<std::int64_t> reach_;
-    std::vector<Site> rim_;
 };
 
 /// One byte a cell, in tiles of 8 x 8 cells that fill a cache line each: what spreads from cell to cell in any
@@ -187,6 +188,7 @@ private:
     Grid grid_;
     std::int64_t step_;
     Disc disc_;
+    Stamp rim_; ///< of the disc
     RegionWalk walk_;
     std::int64_t cells_ = 0;
     std::vector<Cell> particles_;
