@@ -175,26 +175,42 @@ void take_nearer(NearestRiver& near, std::size_t i, std::size_t from, float leng
     }
 }
 
-/// Gives each cell of some rows the nearest of those that have one, in two passes; the first and last of them have
-/// none.
-void spread_out(NearestRiver& near, TerrainLevel const& level) {
+/// Calls take(cell, neighbour, distance between them) in two passes over rows, of which the first and the last take
+/// nothing.
+template <class Take> void spread_out(TerrainLevel const& level, std::size_t height, Take take) {
     auto const offsets = level.offsets();
     auto const width = static_cast<std::size_t>(level.width);
-    std::size_t const height = near.distance.size() / width;
     for (std::size_t row = 1; row + 1 < height; ++row) {
         for (std::size_t i = row * width + 1; i + 1 < (row + 1) * width; ++i) {
             for (std::size_t const k : before) {
-                take_nearer(near, i, moved(i, offsets[k]), step_lengths[k]);
+                take(i, moved(i, offsets[k]), step_lengths[k]);
             }
         }
     }
     for (std::size_t row = height - 2; row > 0; --row) {
         for (std::size_t i = (row + 1) * width - 2; i > row * width; --i) {
             for (std::size_t const k : before) {
-                take_nearer(near, i, moved(i, -offsets[k]), step_lengths[k]);
+                take(i, moved(i, -offsets[k]), step_lengths[k]);
             }
         }
     }
+}
+
+/// Gives each cell of some rows the nearest of those that have one; the first and last of them have none.
+void spread_out(NearestRiver& near, TerrainLevel const& level) {
+    spread_out(level, near.distance.size() / static_cast<std::size_t>(level.width),
+               [&](std::size_t i, std::size_t from, float length) { take_nearer(near, i, from, length); });
+}
+
+/// Distances of nearest_river().
+Cells<float> river_distances(TerrainLevel const& level, std::vector<float> const& head_start) {
+    Cells<float> far(static_cast<std::size_t>(level.cells()), std::numeric_limits<float>::infinity());
+    for (std::size_t n = 0; n < head_start.size(); ++n) {
+        far[level.rivers.cell[n]] = -head_start[n];
+    }
+    spread_out(level, static_cast<std::size_t>(level.height),
+               [&](std::size_t i, std::size_t from, float length) { far[i] = std::min(far[i], far[from] + length); });
+    return far;
 }
 
 LevelInput coarser(LevelInput const& fine) {
@@ -338,7 +354,7 @@ Cells<float> lowest_valleys(TerrainLevel const& level) {
     std::vector<float> head_start(level.rivers.cell.size());
     std::transform(level.rivers.cell.begin(), level.rivers.cell.end(), head_start.begin(),
                    [&](std::uint32_t cell) { return -level.z[cell] / each; });
-    Cells<float> lowest = nearest_river(level, head_start).distance;
+    Cells<float> lowest = river_distances(level, head_start);
     std::transform(lowest.begin(), lowest.end(), lowest.begin(), [&](float far) { return far * each; });
     return lowest;
 }
