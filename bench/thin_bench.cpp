@@ -128,7 +128,7 @@ void BM_prune(benchmark::State& state) {
         state, [](StreamNetwork const& network) { return network::prune(network, {.length_m = 20.0, .cell_m = 1.0}); });
 }
 void BM_order(benchmark::State& state) {
-    after_tracing(state, network::order);
+    after_tracing(state, [](StreamNetwork const& network) { return network::order(network); });
 }
 void BM_set_heights(benchmark::State& state) {
     after_tracing(state, [](StreamNetwork const& network) { return network::set_heights(network); });
