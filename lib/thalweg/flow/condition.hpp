@@ -17,8 +17,8 @@
 // flooded, so a DEM that drains costs one look.
 // Source: Barnes et al. 2014; least-cost breaching as Soille 2004 and Lindsay 2016; banks first is
 // ours: docs/decisions/0013-water.md.
-// Cost: docs/performance.md, 2048 x 2048: 3.8 ns a cell where all drains; filling relief 117 ns and
-// 20 bytes, carving it 334 ns and 25 bytes, carving noise 2.5 us. The look for undrained cells runs
+// Cost: docs/performance.md, 2048 x 2048: 1.8 ns a cell where all drains; filling relief 83 ns and
+// 20 bytes, carving it 202 ns and 28 bytes, carving noise 1.5 us. The look for undrained cells runs
 // on all cores, the rest on one.
 // Not for: routing alone (route.hpp leaves the DEM as it is); real lakes and sinkholes, which
 // disappear. Noise as high as the relief makes carving slow: fill.

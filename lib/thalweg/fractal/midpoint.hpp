@@ -21,8 +21,8 @@
 // Noise is a hash of level and place, so that parts and coarser results agree bit for bit.
 // Source: Fournier, Fussell and Carpenter 1982; Zhang, Liu and Li, equation 14; Stein 2002
 // (`exact`). Sixteen neighbours are ours.
-// Cost: O(n) for n cells of the result. docs/performance.md: 1.6 ns and 5.2 bytes a cell for 8192 x
-// 8192, 4 times a memcpy. Bands of rows run on all cores. `exact` takes about 60 times as long, 140
+// Cost: O(n) for n cells of the result. docs/performance.md: 1.2 ns and 5.2 bytes a cell for 8192 x
+// 8192, 3.6 times a memcpy. Bands of rows run on all cores. `exact` takes about 60 times as long, 140
 // times above an H of 0.75, and solves a dense system of its coarse cells (2000 at most).
 // Not for: erosion: the detail has no valleys and as many pits as peaks. H estimated from few
 // coarse cells says little.

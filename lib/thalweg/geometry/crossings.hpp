@@ -17,7 +17,7 @@
 // have equal bits, and can be keys.
 // Source: CGAL; Zomorodian and Edelsbrunner 2000 for the segment trees.
 // Cost: O(n + k) for n segments of similar length and k pairs of boxes; trees add logarithms.
-// docs/performance.md: 0.5 us an arc for 1000 arcs, 0.4 % of the time of all pairs. One thread.
+// docs/performance.md: 0.3 us an arc for 1000 arcs, 0.3 % of the time of all pairs. One thread.
 // Not for: nearness (segments_near in nearby.hpp, SegmentGrid): lines that miss each other by a
 // rounding do not meet. Splitting at the points moves lines by an ulp, which may make new
 // crossings: triangulate.hpp repeats.

@@ -18,7 +18,7 @@
 // leaves it, and one that is far away returns to its launch circle by the exterior Poisson kernel.
 // Source: Witten and Sander 1981; S and M as in Cao, Long and Lü 2009, equation 1 and section 2
 // (Chiu, Lee and Tu 1992). The jumps are ours: docs/decisions/0005-growth.md; arms: 0006-arms.md.
-// Cost: time grows as the number of particles ^ 1.16 (docs/performance.md: 2.0 us and 41 bytes a
+// Cost: time grows as the number of particles ^ 1.09 (docs/performance.md: 1.3 us and 68 bytes a
 // particle for 100 000); memory as the area of the cluster. S near 0 costs walkers:
 // least_arrivals(). One thread, since each walker meets the cluster that those before it left.
 // Not for: many basins or a region of given shape (forest/grow_forest.hpp); a bifurcation ratio

@@ -22,8 +22,8 @@
 // Source: Witten and Sander 1981 for aggregation; Petroff et al. 2013 for growth in a Poisson
 // field. Steps and distances are ours: docs/decisions/0014-forest.md.
 // Cost: a full region holds about cells / (2 s^2) particles. Walkers jump over free squares as in
-// dla/grow_dla.hpp and do not start in pockets where nothing can grow. docs/performance.md: 336 ns
-// a cell on 40 x 40 cells, 11 bytes a cell, time as cells ^ 1.23. One thread: each walker depends
+// dla/grow_dla.hpp and do not start in pockets where nothing can grow. docs/performance.md: 150 ns
+// a cell on 40 x 40 cells, 12 bytes a cell, time as cells ^ 1.05. One thread: each walker depends
 // on those before it.
 // Not for: one large basin with a main valley (grow_dla, grow_tokunaga): trees of a forest compete,
 // so a basin is as large as its neighbours allow. Land narrower than about s + 5 cells gets no

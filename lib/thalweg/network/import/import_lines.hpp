@@ -22,7 +22,7 @@
 // follow one another are joined to arcs.
 // Source: ours. Directions: docs/algorithms/river_directions.md; ends that nearly meet:
 // docs/decisions/0035-ends-that-nearly-meet.md; attributes that count: docs/river_files.md.
-// Cost: O(n log n) for n vertices where lines seldom cross (docs/performance.md: 0.5 us an arc for
+// Cost: O(n log n) for n vertices where lines seldom cross (docs/performance.md: 0.3 us an arc for
 // the crossings of 1000 arcs). Directions cost O(r log r) for a tree of r reaches; a part full of
 // loops costs one search for each bridge that leaves it. One thread, but for the search for
 // duplicates.

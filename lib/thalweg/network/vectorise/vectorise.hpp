@@ -16,7 +16,7 @@
 // within an arc, all others are nodes.
 // Source: Guo and Hall 1989, algorithm A1 (thinning); Cao, Long and Lü 2009, section 3.2, which
 // leaves the vectorisation open; m-adjacency and the tree are ours.
-// Cost: thinning is O(cells) a pass, with a pass for each layer of cells (docs/performance.md: 4.5
+// Cost: thinning is O(cells) a pass, with a pass for each layer of cells (docs/performance.md: 3.4
 // ns and 6.8 bytes a cell for 1024 x 1024). Tracing is O(s log s) for s cells of the skeleton. One
 // thread.
 // Not for: the streams of a DEM (flow/extract_streams.hpp), which have directions already; networks

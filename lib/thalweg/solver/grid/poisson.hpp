@@ -20,8 +20,8 @@
 // diffusion by small steps.
 // Source: Hestenes and Stiefel 1952; Braess 1995 (aggregation); edges and second cycles are ours:
 // docs/decisions/0011-solver.md. Northeast Normal University 2015, equations 12, 13 and 16.
-// Cost: O(n) for each of 8 or 9 iterations to 1e-6 on a grid of any size. docs/performance.md: 145
-// ns and 59 bytes a cell for 2048 x 2048, 0.05 of the time of a sparse Cholesky factor. All cores;
+// Cost: O(n) for each of 8 or 9 iterations to 1e-6 on a grid of any size. docs/performance.md: 85
+// ns and 56 bytes a cell for 2048 x 2048, 0.06 of the time of a sparse Cholesky factor. All cores;
 // the same bytes for any number.
 // Not for: varying conductivity or meshes (SparseFactor in linear/linear.hpp); parts without a
 // fixed cell, which have no unique answer and are refused (unreached finds them). Mazes of one-cell

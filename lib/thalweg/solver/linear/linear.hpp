@@ -19,7 +19,7 @@
 // once for many right-hand sides.
 // Source: Golub and von Matt 1991 (quadratic condition); Eigen for QR, eigenvalues and sparse LDL'.
 // Cost: QR O(m n^2); factor O(n^3), its rows on all cores; docs/performance.md: on 2048 x 2048 the
-// grid's own solver takes 0.05 of SimplicialLDLT.
+// grid's own solver takes 0.06 of SimplicialLDLT.
 // Not for: Poisson's equation on rasters (grid/poisson.hpp); matrices that are not positive
 // definite. More than some thousand unknowns are too many for dense factors (n^2 doubles).
 // Example:

@@ -16,7 +16,7 @@
 // flats.
 // Source: Northeast Normal University 2015, equations 12 and 13 with the sign corrected; the steady
 // state and smoothing are ours.
-// Cost: O(n) for each of about 14 iterations on any grid. docs/performance.md: 145 ns and 59 bytes
+// Cost: O(n) for each of about 14 iterations on any grid. docs/performance.md: 85 ns and 56 bytes
 // a cell to 1e-6 on 2048 x 2048. 5500 sweeps take about 20 times as long on 1024 x 1024. All cores,
 // or OpenCL.
 // Not for: terrain with side valleys (surface/equilibrium/). Land without skeleton between rivers

@@ -18,7 +18,7 @@
 // neighbouring valleys meet without the scarps that the published base leaves at ridges.
 // Source: Cao, Long and Lü 2009, equations 3 and 4, table 1; the closed form, which tests compare
 // with expand_frontier, and the harmonic base are ours: docs/decisions/0009-harmonic-base.md.
-// Cost: O(n). docs/performance.md: 4.0 ns and 10 bytes a cell for 8192 x 8192, 8.6 times a memcpy.
+// Cost: O(n). docs/performance.md: 3.7 ns and 10 bytes a cell for 8192 x 8192, 11 times a memcpy.
 // Bands of rows and strips of columns run on all cores. With barriers a frontier on one thread,
 // about 17 times as long.
 // Not for: drainage. Heights depend on distance alone, so water leaves rivers diagonally and a few

@@ -24,8 +24,8 @@
 // Source: ours: docs/decisions/0015-equilibrium.md and 0022 to 0026. Parts: creep length Perron et
 // al. 2009; stack order Braun and Willett 2013; flood Barnes et al. 2014; debris flows Stock and
 // Dietrich 2003.
-// Cost: O(n) a round; levels add a third. docs/performance.md: 748 ns and 51 bytes a cell for 2048
-// x 2048, 17 times D8 of the result. All cores, but for the flood and the rivers. Given heights
+// Cost: O(n) a round; levels add a third. docs/performance.md: 408 ns and 21 bytes a cell for 2048
+// x 2048, 15 times D8 of the result. All cores, but for the flood and the rivers. Given heights
 // solve twice, with a target slope up to seven times, with known points four times.
 // Not for: rivers with known heights that the terrain shall follow (rebuild.hpp). Rounds are
 // counted, so the steady state is approached, not reached. It knows no terraces, fans, landslides

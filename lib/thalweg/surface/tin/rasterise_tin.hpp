@@ -15,8 +15,8 @@
 // is left out or drawn twice. Outside, a tree of boxes over the outer edges finds the nearest point
 // of the TIN.
 // Source: ours; exact predicates after Shewchuk 1997 (geometry/triangles.hpp).
-// Cost: O(triangles + cells). docs/performance.md: 22.5 ns and 19 bytes a cell for 4096 x 4096,
-// 0.24 of the time of the triangulation. Bands of 64 rows run on all cores.
+// Cost: O(triangles + cells). docs/performance.md: 20.1 ns and 19 bytes a cell for 4096 x 4096,
+// 0.36 of the time of the triangulation. Bands of 64 rows run on all cores.
 // Not for: surfaces without creases (geometry/natural_neighbours.hpp); meshes with overhangs:
 // triangles must be counterclockwise in plan.
 // Example:
