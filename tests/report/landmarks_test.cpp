@@ -3,6 +3,7 @@
 #include <thalweg/report/landmarks.hpp>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -13,14 +14,15 @@ namespace thalweg::report {
 namespace {
 
 /// Cones of given heights on a plain.
-Raster<float> cones(std::vector<std::pair<Cell, double>> const& tops) {
-    Raster<float> dem(Grid{160, 80, 10.0, 1000.0, 2000.0, ""});
+Raster<float> cones(std::vector<std::pair<Cell, double>> const& tops, std::int64_t width = 160,
+                    std::int64_t height = 80) {
+    Raster<float> dem(Grid{width, height, 10.0, 1000.0, 2000.0, ""});
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
         Cell const here = dem.grid().at(i);
-        for (auto const& [top, height] : tops) {
+        for (auto const& [top, top_m] : tops) {
             double const away =
                 std::hypot(static_cast<double>(here.col - top.col), static_cast<double>(here.row - top.row));
-            dem[i] = std::max(dem[i], static_cast<float>(height - 10.0 * away));
+            dem[i] = std::max(dem[i], static_cast<float>(top_m - 10.0 * away));
         }
     }
     return dem;
@@ -42,20 +44,12 @@ TEST(Landmarks, SummitsAreTheMostProminentWithRoomBetweenThem) {
 }
 
 TEST(Landmarks, SummitsOfALargeDemAreItsHighestCells) {
-    Raster<float> dem(Grid{2100, 90, 10.0, 1000.0, 2000.0, ""});
     std::vector<std::pair<Cell, double>> const tops = {{{400, 40}, 200.0}, {{1501, 50}, 300.0}, {{2000, 44}, 250.0}};
-    for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        Cell const here = dem.grid().at(i);
-        for (auto const& [top, height] : tops) {
-            double const away =
-                std::hypot(static_cast<double>(here.col - top.col), static_cast<double>(here.row - top.row));
-            dem[i] = std::max(dem[i], static_cast<float>(height - 10.0 * away));
-        }
-    }
+    Raster<float> const dem = cones(tops, 2100, 90);
     std::vector<report::Summit> const found = report::summits(dem, 10);
     ASSERT_EQ(found.size(), 3U);
     for (std::size_t k = 0; k < 3; ++k) {
-        auto const& [top, height] = tops[(k + 1) % 3 == 0 ? 0 : k + 1];
+        auto const& [top, height] = tops[(k + 1) % 3];
         EXPECT_EQ(found[k].at, dem.grid().centre(top)) << k;
         EXPECT_EQ(found[k].z, height) << k;
     }

@@ -128,10 +128,10 @@ Mask box_marks(Mask const& fine, std::int64_t columns) {
     Mask out(coarser(fine.grid(), columns));
     for (std::int64_t i = 0; i < fine.cells(); ++i) {
         if (fine[i] != 0) {
-            Cell const c =
-                fine.grid().at(i); // its centre is half a cell farther: twice as many halves are whole numbers
-            out[Cell{(2 * c.col + 1) * columns / (2 * fine.width()), (2 * c.row + 1) * columns / (2 * fine.width())}] =
-                1;
+            // The centre of a cell is half a cell farther: twice as many halves are whole numbers.
+            Cell const c = fine.grid().at(i);
+            std::int64_t const halves = 2 * fine.width();
+            out[Cell{(2 * c.col + 1) * columns / halves, (2 * c.row + 1) * columns / halves}] = 1;
         }
     }
     return out;

@@ -37,9 +37,9 @@ struct Watchers {
     std::atomic<std::int64_t> last_ns = 0; ///< when memory was last noted
 };
 
+/// Never destroyed: threads may still release blocks when the program ends.
 Watchers& watchers() {
-    static Watchers* const only =
-        new Watchers; // never destroyed: threads may still release blocks when the program ends
+    static Watchers* const only = new Watchers;
     return *only;
 }
 
