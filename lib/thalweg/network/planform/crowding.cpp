@@ -51,7 +51,7 @@ bool leaves_land(Stems const& stems, std::vector<Vec2> const& at, std::size_t i,
 
 Crowding::Crowding(Stems const& stems, std::vector<Vec2> const& was, Grid const& grid, Mask const& land, Gap const& gap)
     : stems_(stems), was_(was), grid_(grid), land_(land), gap_(gap), reach_m_(1.001 * gap.gap_m), moved_(was.size()),
-      off_(was.size()), off_land_(was.size()), spans_(was.size()) {}
+      off_(was.size()), off_land_(was.size()), spans_(was.size()), displaced_(was.size()) {}
 
 /// Lays out the index for the first positions.
 void Crowding::cover() {
@@ -75,11 +75,44 @@ Crowding::Span Crowding::span_of(Vec2 a, Vec2 b, double margin_m) const {
             slot((std::max(a.y, b.y) + margin_m - low_.y) * per_m_, height_)};
 }
 
-/// Puts the segments into the index: a row's cells side by side, so that a search reads on.
+/// Brings the index up to date. Few segments leave their cells after the first rounds.
 void Crowding::fill() {
+    constexpr std::size_t one_of = 8;
     for (std::size_t const segment : segments_moved_) {
-        spans_[segment] = span_of(is_[segment], is_[segment + 1], 0.0);
+        Span const span = span_of(is_[segment], is_[segment + 1], 0.0);
+        if (displaced_[segment] == 0 && !(span == spans_[segment])) {
+            displaced_[segment] = 1;
+            ++displaced_segments_;
+        }
+        spans_[segment] = span;
     }
+    if (first_.empty() || displaced_segments_ > is_.size() / one_of) {
+        put_into_index();
+        std::ranges::fill(displaced_, std::uint8_t{0});
+        displaced_segments_ = 0;
+    }
+    fill_displaced();
+}
+
+/// Lists the segments that have left their cells by those in which they lie now.
+void Crowding::fill_displaced() {
+    displaced_entries_.clear();
+    for (std::size_t i = 0; displaced_segments_ > 0 && i < displaced_.size(); ++i) {
+        if (displaced_[i] == 0) {
+            continue;
+        }
+        for (std::size_t row = spans_[i].first_row; row <= spans_[i].last_row; ++row) {
+            for (std::size_t col = spans_[i].first_col; col <= spans_[i].last_col; ++col) {
+                displaced_entries_.emplace_back(static_cast<std::uint32_t>(row * width_ + col),
+                                                static_cast<std::uint32_t>(i));
+            }
+        }
+    }
+    std::ranges::sort(displaced_entries_);
+}
+
+/// Puts the segments into the index: a row's cells side by side, so that a search reads on.
+void Crowding::put_into_index() {
     first_.assign(width_ * height_ + 1, 0);
     auto const each_cell = [&](auto const& visit) {
         for (std::size_t i = 0; i < is_.size(); ++i) {
@@ -118,31 +151,41 @@ void Crowding::compare(std::size_t point, std::size_t segment, Pairs& close) con
     }
 }
 
-/// Compares a segment that moved, or its ends, with what is near.
-void Crowding::look_around(std::size_t segment, Pairs& close) const {
+/// Compares a segment that moved with another: their ends, of which each belongs to the segment that it begins.
+void Crowding::compare_segments(std::size_t segment, std::size_t other, Pairs& close) const {
     Vec2 const a = is_[segment];
     Vec2 const b = is_[segment + 1];
-    bool const compare_a = moved_[segment] != 0;
-    bool const compare_b = moved_[segment + 1] != 0 && !is_segment(segment + 1); // a river's last
-    Span const span = span_of(a, b, reach_m_);
+    Vec2 const c = is_[other];
+    Vec2 const d = is_[other + 1];
+    if (moved_[segment] != 0 && is_in_reach(a, c, d)) {
+        compare(segment, other, close);
+    }
+    if (moved_[segment + 1] != 0 && !is_segment(segment + 1) && is_in_reach(b, c, d)) { // a river's last
+        compare(segment + 1, other, close);
+    }
+    if (moved_[other] == 0 && is_in_reach(c, a, b)) {
+        compare(other, segment, close);
+    }
+    if (moved_[other + 1] == 0 && !is_segment(other + 1) && is_in_reach(d, a, b)) {
+        compare(other + 1, segment, close);
+    }
+}
+
+/// Compares a segment that moved, or its ends, with what is near.
+void Crowding::look_around(std::size_t segment, Pairs& close) const {
+    Span const span = span_of(is_[segment], is_[segment + 1], reach_m_);
     for (std::size_t row = span.first_row; row <= span.last_row; ++row) {
-        std::uint32_t const end = first_[row * width_ + span.last_col + 1];
-        for (std::uint32_t k = first_[row * width_ + span.first_col]; k < end; ++k) {
-            std::size_t const other = segments_[k];
-            Vec2 const c = is_[other];
-            Vec2 const d = is_[other + 1];
-            if (compare_a && is_in_reach(a, c, d)) {
-                compare(segment, other, close);
+        std::size_t const from = row * width_ + span.first_col;
+        std::size_t const to = row * width_ + span.last_col;
+        for (std::uint32_t k = first_[from]; k < first_[to + 1]; ++k) {
+            if (displaced_[segments_[k]] == 0) {
+                compare_segments(segment, segments_[k], close);
             }
-            if (compare_b && is_in_reach(b, c, d)) {
-                compare(segment + 1, other, close);
-            }
-            if (moved_[other] == 0 && is_in_reach(c, a, b)) {
-                compare(other, segment, close);
-            }
-            if (moved_[other + 1] == 0 && !is_segment(other + 1) && is_in_reach(d, a, b)) {
-                compare(other + 1, segment, close);
-            }
+        }
+        auto const cell = &std::pair<std::uint32_t, std::uint32_t>::first;
+        for (auto one = std::ranges::lower_bound(displaced_entries_, from, {}, cell);
+             one != displaced_entries_.end() && one->first <= to; ++one) {
+            compare_segments(segment, one->second, close);
         }
     }
 }

@@ -49,6 +49,8 @@ private:
         std::uint16_t last_col = 0;
         std::uint16_t first_row = 0;
         std::uint16_t last_row = 0;
+
+        bool operator==(Span const&) const = default;
     };
 
     /// A point and a segment.
@@ -59,6 +61,8 @@ private:
     }
     void cover();
     void fill();
+    void fill_displaced();
+    void put_into_index();
     Span span_of(Vec2 a, Vec2 b, double margin_m) const;
     void note_moves(std::vector<Vec2> const& is);
     /// Whether a position is within the gap of the box around a segment. Most segments that the index gives are not.
@@ -67,6 +71,7 @@ private:
                std::min(a.y, b.y) - p.y <= reach_m_ && p.y - std::max(a.y, b.y) <= reach_m_;
     }
     void compare(std::size_t point, std::size_t segment, Pairs& close) const;
+    void compare_segments(std::size_t segment, std::size_t other, Pairs& close) const;
     void look_around(std::size_t segment, Pairs& close) const;
 
     Stems const& stems_;
@@ -82,7 +87,8 @@ private:
     std::vector<std::uint8_t> off_land_;        ///< by point: it or what follows left the land
     Pairs close_;                               ///< too close, in any order; may repeat
 
-    // The index: segments by cells as wide as the gap. Outside, the nearest cell counts.
+    // The index: segments by cells as wide as the gap. Outside, the nearest cell counts. A segment that has left its
+    // cells since it was filled counts where it lies in a list of its own.
     Vec2 low_;
     double per_m_ = 0.0; ///< cells per metre
     std::size_t width_ = 0;
@@ -90,6 +96,9 @@ private:
     std::vector<Span> spans_;             ///< by point: of the segment that begins there
     std::vector<std::uint32_t> first_;    ///< by cell: its first entry, and after the last cell the end
     std::vector<std::uint32_t> segments_; ///< by entry
+    std::vector<std::uint8_t> displaced_; ///< by point: the segment that begins there has left its cells
+    std::size_t displaced_segments_ = 0;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> displaced_entries_; ///< ascending: a cell, and such a segment
 };
 
 } // namespace thalweg::network
