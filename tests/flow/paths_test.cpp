@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -13,6 +14,8 @@
 
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/random.hpp>
+#include <thalweg/flow/catchments.hpp>
+#include <thalweg/flow/route.hpp>
 
 namespace paths_test {
 
@@ -119,6 +122,34 @@ TEST(Paths, OrdersAreStrahlersAndShreves) {
     EXPECT_THROW(
         flow::heights_above_rivers(Raster<float>(test::frame(3, 2)), {}, flow::route(Raster<float>(test::frame(2, 2)))),
         BadInput);
+}
+
+TEST(Paths, WaterFollowedInBandsAgreesWithOneThread) {
+    ASSERT_TRUE(rc::check("on narrow lands, where water goes back and forth between bands", [] {
+        auto const seed = *rc::gen::arbitrary<std::uint64_t>();
+        Grid const grid = test::frame(*rc::gen::inRange<std::int64_t>(1, 25), *rc::gen::inRange<std::int64_t>(1, 700));
+        auto const hole_in = *rc::gen::element<std::uint64_t>(5, 50, 1000);
+        Raster<float> dem(grid);
+        std::vector<flow::RiverCell> rivers;
+        for (std::int64_t i = 0; i < grid.cells(); ++i) {
+            std::uint64_t const word = random_word(seed, static_cast<std::uint64_t>(i));
+            dem[i] = word % hole_in == 0 ? std::nanf("") : static_cast<float>(word % 100);
+            if (word % 41 == 0) {
+                rivers.push_back({i, rivers.size()});
+            }
+        }
+        thalweg::Run const one = test::on_threads(1);
+        thalweg::Run const many = test::on_threads(4);
+        flow::FlowField const drainage = flow::route(dem, one);
+        auto const same = [](auto const& a, auto const& b) { RC_ASSERT(std::ranges::equal(a.values(), b.values())); };
+        same(flow::route(dem, many).area_cells, drainage.area_cells);
+        same(flow::flow_lengths(drainage, many), flow::flow_lengths(drainage, one));
+        flow::StreamOrders const a = flow::stream_orders(drainage, 9, many);
+        flow::StreamOrders const b = flow::stream_orders(drainage, 9, one);
+        same(a.strahler, b.strahler);
+        same(a.shreve, b.shreve);
+        same(flow::first_met(rivers, drainage, many), flow::first_met(rivers, drainage, one));
+    }));
 }
 
 } // namespace paths_test

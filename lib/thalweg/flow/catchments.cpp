@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/flow/internal/row_bands.hpp>
 
 namespace thalweg::flow {
 namespace {
@@ -105,6 +106,87 @@ ContributingAreas accumulate(StreamNetwork const& network, std::vector<RiverCell
     return areas;
 }
 
+constexpr std::int32_t unknown = -2; ///< beside numbers of cells and nowhere
+
+/// Follows paths inside a band until a known cell. Where one leaves the band, its cells get the number of that exit.
+/// \return by exit: the cell of another band where the path goes on
+std::vector<std::int64_t> follow_in(RowBand const& band, Raster<std::int32_t>& to, FlowField const& drainage,
+                                    Run const& run) {
+    std::vector<std::int64_t> exits;
+    std::vector<std::int64_t> way;
+    for (std::int64_t i = band.begin; i < band.end; ++i) {
+        if (i % cells_between_checks == 0) {
+            run.check();
+        }
+        way.clear();
+        std::int64_t at = i;
+        while (to[at] == unknown) {
+            way.push_back(at);
+            std::int64_t const next = drainage.receiver(at);
+            if (next < 0) {
+                to[at] = nowhere;
+            } else if (band.contains(next)) {
+                at = next;
+            } else {
+                exits.push_back(next);
+                to[at] = unknown - static_cast<std::int32_t>(exits.size());
+            }
+        }
+        std::int32_t const met = to[at];
+        for (std::int64_t const cell : way) {
+            to[cell] = met;
+        }
+    }
+    return exits;
+}
+
+std::size_t exit_of(std::int32_t number) {
+    return static_cast<std::size_t>(unknown - 1 - number);
+}
+
+/// By band and exit: what the path meets beyond it.
+std::vector<std::vector<std::int32_t>> met_beyond(std::vector<std::vector<std::int64_t>> const& exits,
+                                                  Raster<std::int32_t> const& to, RowBands const& bands) {
+    std::vector<std::vector<std::int32_t>> met;
+    for (auto const& of_band : exits) {
+        met.emplace_back(of_band.size(), unknown);
+    }
+    std::vector<std::pair<std::size_t, std::size_t>> way;
+    for (std::size_t band = 0; band < exits.size(); ++band) {
+        for (std::size_t exit = 0; exit < exits[band].size(); ++exit) {
+            std::pair at{band, exit};
+            std::int32_t end = met[band][exit];
+            while (end == unknown) {
+                way.push_back(at);
+                std::int64_t const next = exits[at.first][at.second];
+                end = to[next];
+                if (end < unknown) {
+                    at = {bands.band_of(next), exit_of(end)};
+                    end = met[at.first][at.second];
+                }
+            }
+            for (auto const& [b, e] : way) {
+                met[b][e] = end;
+            }
+            way.clear();
+        }
+    }
+    return met;
+}
+
+/// Follows the path from each unknown cell to a known one, or to its end.
+void follow_to_known(Raster<std::int32_t>& to, FlowField const& drainage, Run const& run) {
+    RowBands const bands(to.grid(), run);
+    std::vector<std::vector<std::int64_t>> exits(bands.count());
+    bands.each(run, [&](RowBand const& band) { exits[band.number] = follow_in(band, to, drainage, run); });
+    auto const met = met_beyond(exits, to, bands);
+    bands.each(run, [&](RowBand const& band) {
+        for (std::int64_t i = band.begin; !met[band.number].empty() && i < band.end; ++i) {
+            to[i] = to[i] < unknown ? met[band.number][exit_of(to[i])] : to[i];
+        }
+    });
+}
+
 } // namespace
 
 Reaches reaches_of(StreamNetwork const& network) {
@@ -182,7 +264,6 @@ std::vector<RiverCell> river_cells(Reaches const& reaches, Grid const& grid, Run
 }
 
 Raster<std::int32_t> first_met(std::vector<RiverCell> const& cells, FlowField const& drainage, Run const& run) {
-    constexpr std::int32_t unknown = -2;
     require_countable(cells.size(), "river cells");
     Grid const& grid = drainage.direction.grid();
     Raster<std::int32_t> to(grid, unknown);
@@ -195,27 +276,7 @@ Raster<std::int32_t> first_met(std::vector<RiverCell> const& cells, FlowField co
             to[cells[i].cell] = static_cast<std::int32_t>(i);
         }
     }
-    std::vector<std::int64_t> way;
-    for (std::int64_t i = 0; i < grid.cells(); ++i) {
-        if (i % cells_between_checks == 0) {
-            run.check();
-        }
-        way.clear();
-        std::int64_t at = i;
-        while (to[at] == unknown) {
-            way.push_back(at);
-            std::int64_t const next = drainage.receiver(at);
-            if (next < 0) {
-                to[at] = nowhere;
-                break;
-            }
-            at = next;
-        }
-        std::int32_t const end = to[at];
-        for (std::int64_t const cell : way) {
-            to[cell] = end;
-        }
-    }
+    follow_to_known(to, drainage, run);
     return to;
 }
 

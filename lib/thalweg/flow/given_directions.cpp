@@ -161,7 +161,7 @@ FlowField follow(Raster<Direction> const& direction, Run const& run) {
         drainage.area_cells[i] = way == Direction::no_data ? 0 : 1;
         left += goes_on(way) ? 1 : 0;
     });
-    each_downstream(direction, run, [&](std::int64_t cell, std::int64_t receiver) {
+    each_downstream_in_order(direction, run, [&](std::int64_t cell, std::int64_t receiver) {
         drainage.area_cells[receiver] += drainage.area_cells[cell];
         --left;
     });
@@ -185,8 +185,8 @@ Raster<double> accumulate(FlowField const& drainage, Raster<double> const& amoun
         }
         sum[i] = amounts[i];
     });
-    each_downstream(drainage.direction, run,
-                    [&](std::int64_t cell, std::int64_t receiver) { sum[receiver] += sum[cell]; });
+    each_downstream_in_order(drainage.direction, run,
+                             [&](std::int64_t cell, std::int64_t receiver) { sum[receiver] += sum[cell]; });
     return sum;
 }
 
