@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
+#include <cstdint>
+#include <functional>
 #include <limits>
 #include <mutex>
 #include <utility>
@@ -69,6 +72,7 @@ public:
           state_(level_.grid()) {}
 
     Raster<float> fill(std::vector<CellIndex> undrained, std::int64_t cells_per_lake) {
+        mark_outlets();
         if (level_.cells() < cells_per_lake * std::ssize(undrained)) {
             undrained = {};
             take_all();
@@ -84,8 +88,8 @@ public:
 
 private:
     enum State : std::uint8_t {
-        unknown,  ///< not raised, once all lakes are bounded
-        dry,      ///< not raised
+        unknown,  ///< not raised, once all lakes are bounded; no data
+        dry,      ///< not raised: water leaves there, or flows off
         wet,      ///< raised at most to level_
         on_shore, ///< beside the lake that grows
         in_lake,  ///< of the lake that grows
@@ -93,19 +97,46 @@ private:
         settled   ///< wet, at its level
     };
 
+    /// On the shore of the lake that grows.
+    struct ShoreCell {
+        float z = 0.0F;
+        std::uint32_t number = 0; ///< in around_
+
+        auto operator<=>(ShoreCell const&) const = default;
+    };
+
     float rise(float z) const { return lakes_ == Lakes::level ? z : just_above(z); }
 
-    /// Whether water leaves at a cell. Any other has eight neighbours with data.
-    bool is_outlet(CellIndex i) const {
-        return !std::isnan(rivers_[i]) || level_.grid().on_border(level_.grid().at(i)) ||
-               std::any_of(offsets_.begin(), offsets_.end(),
-                           [&](std::int64_t step) { return std::isnan(level_[i + step]); });
+    /// Cells where water leaves are dry: at the grid's border, beside no data, and rivers. Any other has eight
+    /// neighbours with data.
+    void mark_outlets() {
+        Grid const& grid = level_.grid();
+        for (CellIndex r = 0; r < grid.height; ++r) {
+            auto const land = level_.row(r);
+            auto const river = rivers_.row(r);
+            auto const state = state_.row(r);
+            bool const at_border = r == 0 || r + 1 == grid.height;
+            int holes = 0;
+            for (std::size_t c = 0; c < land.size(); ++c) {
+                holes |= static_cast<int>(std::isnan(land[c]));
+                state[c] |=
+                    static_cast<std::uint8_t>(static_cast<int>(at_border) | static_cast<int>(!std::isnan(river[c])));
+            }
+            state.front() = state.back() = dry;
+            for (std::size_t c = 0; holes != 0 && c < land.size(); ++c) {
+                if (std::isnan(land[c])) {
+                    cells_around(grid, {static_cast<CellIndex>(c), r}, 1, [&](Cell at) { state_[at] = dry; });
+                }
+            }
+        }
     }
 
     void take_all() {
         all_ = true;
-        for (CellIndex i = 0; i < level_.cells(); ++i) {
-            state_[i] = std::isnan(level_[i]) || is_outlet(i) ? unknown : wet;
+        for (std::uint8_t& state : state_.values()) {
+            if (state == unknown) {
+                state = wet;
+            }
         }
     }
 
@@ -152,49 +183,58 @@ private:
         }
     }
 
-    /// Adds the lowest cell around a lake to it until water leaves it there; then its cells are known.
+    void add_to_shore(CellIndex i) {
+        state_[i] = on_shore;
+        shore_.push_back({level_[i], static_cast<std::uint32_t>(around_.size())});
+        std::push_heap(shore_.begin(), shore_.end(), std::greater<>());
+        around_.push_back(i);
+    }
+
+    CellIndex lowest_of_shore() {
+        std::pop_heap(shore_.begin(), shore_.end(), std::greater<>());
+        CellIndex const i = around_[shore_.back().number];
+        shore_.pop_back();
+        return i;
+    }
+
+    /// The lowest level of the known cells around a cell.
+    float lowest_known(CellIndex i) const {
+        float lowest = no_limit;
+        for (std::int64_t const step : offsets_) {
+            CellIndex const n = i + step;
+            lowest = state_[n] == dry || state_[n] == wet ? std::min(lowest, level_[n]) : lowest;
+        }
+        return lowest;
+    }
+
+    /// Adds the lowest cell around a lake to it until one lies beside a cell that is known. From there the levels of
+    /// the others follow: at most, as ways up from cell to cell have them.
     void grow_lake(CellIndex first) {
-        LowestCell shore;
-        shore.emplace(level_[first], first);
+        shore_.clear();
         around_.clear();
-        CellIndex way_out = first;
-        for (bool on = true; on;) {
-            way_out = shore.top().second;
-            shore.pop();
-            state_[way_out] = in_lake;
-            float lowest = no_limit;
-            if (is_outlet(way_out)) {
-                lowest = -no_limit;
-            } else {
-                for (std::int64_t const step : offsets_) {
-                    CellIndex const n = way_out + step;
-                    if (state_[n] == unknown) {
-                        state_[n] = on_shore;
-                        around_.push_back(n);
-                        shore.emplace(level_[n], n);
-                    } else if (state_[n] == dry || state_[n] == wet) {
-                        lowest = std::min(lowest, level_[n]);
-                    }
+        lake_.clear();
+        add_to_shore(first);
+        for (float lowest = no_limit; lowest == no_limit;) {
+            CellIndex const i = lowest_of_shore();
+            state_[i] = in_lake;
+            lake_.push_back(i);
+            for (std::int64_t const step : offsets_) {
+                if (CellIndex const n = i + step; state_[n] == unknown) {
+                    add_to_shore(n);
+                } else if (state_[n] == dry || state_[n] == wet) {
+                    lowest = std::min(lowest, level_[n]);
                 }
-            }
-            if (lowest < no_limit) {
-                know(way_out, just_above(lowest));
-                on = false;
             }
         }
-        LowestCell water;
-        water.emplace(level_[way_out], way_out);
-        while (!water.empty()) {
-            CellIndex const i = water.top().second;
-            water.pop();
-            Cell const at = level_.grid().at(i);
-            for (Cell const step : d8_steps) {
-                Cell const to{at.col + step.col, at.row + step.row};
-                CellIndex const n = level_.grid().index(to);
-                if (level_.grid().contains(to) && state_[n] == in_lake) {
-                    know(n, just_above(level_[i]));
-                    water.emplace(level_[n], n);
-                }
+        // Each cell but the last was reached before another from which it is known; if not, then from one before it.
+        for (auto i = lake_.rbegin(); i != lake_.rend(); ++i) {
+            if (float const lowest = lowest_known(*i); lowest < no_limit) {
+                know(*i, just_above(lowest));
+            }
+        }
+        for (CellIndex const i : lake_) {
+            if (state_[i] == in_lake) {
+                know(i, just_above(lowest_known(i)));
             }
         }
         for (CellIndex const i : around_) {
@@ -204,17 +244,12 @@ private:
         }
     }
 
-    /// Follows the water of a cell down to one beside a cell that is known, or out; then all cells of its way are
-    /// known.
+    /// Follows the water of a cell down to one beside a cell that is known; then all cells of its way are known.
     void descend(CellIndex i) {
         around_.clear();
         float least = no_limit;
         while (least == no_limit) {
             around_.push_back(i);
-            if (is_outlet(i)) {
-                least = -no_limit;
-                break;
-            }
             CellIndex lowest = i;
             float known = no_limit; // the lowest level beside it
             for (std::int64_t const step : offsets_) {
@@ -288,7 +323,9 @@ private:
     bool all_ = false;              ///< all cells are wet but those where water leaves
     std::vector<CellIndex> wet_;    ///< otherwise
     std::vector<float> land_;       ///< their heights
-    std::vector<CellIndex> around_; ///< a lake, or above a cell
+    std::vector<CellIndex> around_; ///< the cells of a lake and its shore, or above a cell
+    std::vector<ShoreCell> shore_;  ///< a heap, the lowest first
+    std::vector<CellIndex> lake_;   ///< in the order in which it has grown
 };
 
 } // namespace
