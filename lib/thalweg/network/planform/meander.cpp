@@ -2,7 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/network/planform/meander.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -19,57 +24,80 @@
 namespace thalweg::network {
 namespace {
 
-// Moves points by shares [0,1] of their shifts; rivers that join others follow their mouth.
-void shifted(Stems const& stems, std::vector<Vec2> const& at, std::vector<Vec2> const& shift,
-             std::vector<double> const& share, double cell_m, std::vector<Vec2>& out) {
-    out.resize(at.size());
-    for (Stem const& stem : stems.stems) {
-        for (std::size_t i = stem.begin; i < stem.end; ++i) {
-            out[i] = {at[i].x + share[i] * shift[i].x, at[i].y + share[i] * shift[i].y};
-        }
-        if (!stem.joins) {
-            continue;
-        }
-        Vec2 const mouth = out[stems.node_point[stem.mouth]];
-        Vec2 const by{mouth.x - out[stem.end - 1].x, mouth.y - out[stem.end - 1].y};
-        double const reach = std::max(8.0 * cell_m, 3.0 * std::sqrt(by.x * by.x + by.y * by.y));
-        double const end_m = stems.way_m[stem.end - 1];
-        for (std::size_t i = stem.end; i-- > stem.begin && end_m - stems.way_m[i] < reach;) {
-            double const t = (end_m - stems.way_m[i]) / reach;
-            double const follows = 1.0 - t * t * (3.0 - 2.0 * t);
-            out[i] = {out[i].x + follows * by.x, out[i].y + follows * by.y};
-        }
-        out[stem.end - 1] = mouth;
-    }
-}
+/// The shares [0,1] of their shifts by which points move.
+class Shares {
+public:
+    explicit Shares(Stems const& stems)
+        : stems_(stems), share_(stems.at.size(), 1.0), factor_(share_.size(), 1.0), changed_(stems.stems.size(), 1) {}
 
-// Halves the shares of points, and reduces those of their neighbours within a distance along the river by less; small
-// ones become 0. Returns the number of points.
-std::int64_t ease(Stems const& stems, std::vector<std::size_t> const& points, double reach_m,
-                  std::vector<double>& share) {
-    constexpr double least = 1.0 / 64.0;
-    std::vector<double> factor(share.size(), 1.0);
-    for (std::size_t const i : points) {
-        Stem const& stem = stems.stems[stems.stem_of[i]];
-        auto const lower = [&](std::size_t j) {
-            double const t = std::fabs(stems.way_m[j] - stems.way_m[i]) / reach_m;
-            factor[j] = std::min(factor[j], 0.5 + 0.5 * t);
-            return t < 1.0;
-        };
-        for (std::size_t j = i; j < stem.end && lower(j); ++j) {
+    double of(std::size_t point) const { return share_[point]; }
+    /// Whether a share of a stem has changed since settle().
+    bool changed(std::size_t stem) const { return changed_[stem] != 0; }
+    void settle() { std::ranges::fill(changed_, std::uint8_t{0}); }
+
+    /// Halves the shares of points, and reduces those of their neighbours within a distance along the river by less;
+    /// small ones become 0.
+    /// \return the number of points eased
+    std::int64_t ease(std::vector<std::size_t> const& points, double reach_m) {
+        constexpr double least = 1.0 / 64.0;
+        for (std::size_t const i : points) {
+            Stem const& stem = stems_.stems[stems_.stem_of[i]];
+            auto const lower = [&](std::size_t j) {
+                double const t = std::fabs(stems_.way_m[j] - stems_.way_m[i]) / reach_m;
+                if (t < 1.0) {
+                    if (factor_[j] == 1.0) {
+                        near_.push_back(j);
+                    }
+                    factor_[j] = std::min(factor_[j], 0.5 + 0.5 * t);
+                }
+                return t < 1.0;
+            };
+            for (std::size_t j = i; j < stem.end && lower(j); ++j) {
+            }
+            for (std::size_t j = i; j-- > stem.begin && lower(j);) {
+            }
         }
-        for (std::size_t j = i; j-- > stem.begin && lower(j);) {
+        std::int64_t eased = 0;
+        for (std::size_t const i : near_) {
+            double const factor = std::exchange(factor_[i], 1.0);
+            if (factor < 1.0 && share_[i] > 0.0) {
+                ++eased;
+                share_[i] *= factor;
+                share_[i] = share_[i] < least ? 0.0 : share_[i];
+                changed_[stems_.stem_of[i]] = 1;
+            }
         }
+        near_.clear();
+        return eased;
     }
-    std::int64_t eased = 0;
-    for (std::size_t i = 0; i < share.size(); ++i) {
-        if (factor[i] < 1.0 && share[i] > 0.0) {
-            ++eased;
-            share[i] *= factor[i];
-            share[i] = share[i] < least ? 0.0 : share[i];
-        }
+
+private:
+    Stems const& stems_;
+    std::vector<double> share_;         // by point
+    std::vector<double> factor_;        // by point: 1 between calls
+    std::vector<std::size_t> near_;     // points with a factor below 1
+    std::vector<std::uint8_t> changed_; // by stem
+};
+
+/// Moves the points of a stem by their shares; a river that joins another follows its mouth.
+void shift_stem(Stems const& stems, Stem const& stem, std::vector<Vec2> const& at, std::vector<Vec2> const& shift,
+                Shares const& shares, double cell_m, std::vector<Vec2>& out) {
+    for (std::size_t i = stem.begin; i < stem.end; ++i) {
+        out[i] = {at[i].x + shares.of(i) * shift[i].x, at[i].y + shares.of(i) * shift[i].y};
     }
-    return eased;
+    if (!stem.joins) {
+        return;
+    }
+    Vec2 const mouth = out[stems.node_point[stem.mouth]];
+    Vec2 const by{mouth.x - out[stem.end - 1].x, mouth.y - out[stem.end - 1].y};
+    double const reach = std::max(8.0 * cell_m, 3.0 * std::sqrt(by.x * by.x + by.y * by.y));
+    double const end_m = stems.way_m[stem.end - 1];
+    for (std::size_t i = stem.end; i-- > stem.begin && end_m - stems.way_m[i] < reach;) {
+        double const t = (end_m - stems.way_m[i]) / reach;
+        double const follows = 1.0 - t * t * (3.0 - 2.0 * t);
+        out[i] = {out[i].x + follows * by.x, out[i].y + follows * by.y};
+    }
+    out[stem.end - 1] = mouth;
 }
 
 constexpr double eased_reach = 6.0;   // [cells] along a river on either side of a conflict
@@ -142,11 +170,10 @@ std::vector<std::size_t> meeting_points(Lines const& lines, StreamNetwork const&
 }
 
 /// The points, and for those without a remaining shift the position on the larger river that they follow.
-std::vector<std::size_t> with_mouths(Stems const& stems, std::vector<std::size_t> points,
-                                     std::vector<double> const& share) {
+std::vector<std::size_t> with_mouths(Stems const& stems, std::vector<std::size_t> points, Shares const& shares) {
     for (std::size_t k = 0; k < points.size(); ++k) {
         Stem const& stem = stems.stems[stems.stem_of[points[k]]];
-        if (stem.joins && share[points[k]] == 0.0) {
+        if (stem.joins && shares.of(points[k]) == 0.0) {
             points.push_back(stems.node_point[stem.mouth]);
         }
     }
@@ -206,21 +233,15 @@ private:
 
     /// Moves the points as far as rivers keep apart; not at all if that does not converge.
     void move(std::vector<Vec2> const& shift, double near_m) {
-        std::vector<double> share(base_.size(), 1.0);
+        Shares shares(stems_);
         Crowding crowding(stems_, base_, grid_, land_, {params_.gap_cells * grid_.cell_m, near_m});
-        std::vector<Vec2> loose; // before rounding
-        std::vector<Vec2> last;  // the same a round ago
+        std::vector<Vec2> loose(base_.size()); // before rounding
         std::vector<Vec2> at(base_.size());
         for (int round = 0; round < rounds_of_halving; ++round) {
             run_.check();
-            shifted(stems_, base_, shift, share, grid_.cell_m, loose);
-            for (std::size_t i = 0; i < at.size(); ++i) {
-                at[i] = round > 0 && loose[i] == last[i] ? at[i] : settled(i, loose[i]);
-            }
-            std::swap(loose, last);
+            shift_changed(shift, shares, loose, at);
             std::vector<std::size_t> bad = crowding.points(at, run_);
             if (bad.empty()) {
-                std::vector<Vec2>().swap(loose); // room for what looks for meetings
                 bad = meeting_points(lines_through(stems_, network_, at), network_, run_);
             }
             if (bad.empty()) {
@@ -229,12 +250,29 @@ private:
             }
             ++out_.rounds;
             std::int64_t const eased =
-                ease(stems_, with_mouths(stems_, std::move(bad), share), eased_reach * grid_.cell_m, share);
+                shares.ease(with_mouths(stems_, std::move(bad), shares), eased_reach * grid_.cell_m);
             if (eased == 0) {
                 return;
             }
             out_.eased += eased;
         }
+    }
+
+    /// Shifts the stems whose shares or mouths have changed.
+    void shift_changed(std::vector<Vec2> const& shift, Shares& shares, std::vector<Vec2>& loose,
+                       std::vector<Vec2>& at) const {
+        for (std::size_t s = 0; s < stems_.stems.size(); ++s) {
+            Stem const& stem = stems_.stems[s];
+            bool const follows = stem.joins && !(loose[stems_.node_point[stem.mouth]] == loose[stem.end - 1]);
+            if (!shares.changed(s) && !follows) {
+                continue;
+            }
+            shift_stem(stems_, stem, base_, shift, shares, grid_.cell_m, loose);
+            for (std::size_t i = stem.begin; i < stem.end; ++i) {
+                at[i] = settled(i, loose[i]);
+            }
+        }
+        shares.settle();
     }
 
     /// A point rounded for output. One that did not move keeps every bit.
