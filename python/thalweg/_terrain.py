@@ -408,7 +408,7 @@ def forecast(recipe: object = None, /, **keys: Any) -> dict[str, Any]:
     -------
     dict
         stages (list of str), grid (Grid, or None where it depends on rivers that must be grown first), cells,
-        memory_bytes [byte] (an upper limit), seconds [s] (on one core of 2020) and findings, as in Terrain.findings.
+        memory_bytes [byte] (at its peak, within some 15 %), seconds [s] (on one core of 2020) and findings, as in Terrain.findings.
 
     Warns
     -----

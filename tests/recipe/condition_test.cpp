@@ -159,6 +159,7 @@ TEST(Stages, EachSaysWhenItRuns) {
     for (Stage const* const stage : all_stages()) {
         EXPECT_NE(stage->runs_if(), "") << stage->name;
         EXPECT_GT(stage->seconds_a_million, 0.0) << stage->name;
+        EXPECT_GT(stage->bytes_a_cell, 0.0) << stage->name;
     }
     EXPECT_EQ(stage::sea.runs_if(),
               R"(network.source = "lines" and network.lines.coastlines = "sea" and its file has coastlines)");

@@ -67,9 +67,7 @@ std::string forecast_in_words(recipe::Forecast const& forecast, bool json) {
                             static_cast<double>(forecast.cells));
     }
     double const gigabytes = static_cast<double>(forecast.memory_bytes) / 1e9;
-    double const step =
-        std::pow(10.0, std::floor(std::log10(gigabytes)) - 1.0); // two digits, rounded up: it is a bound
-    text += fmt::format("memory     at most {:.2g} GB\n", std::ceil(gigabytes / step - 1e-9) * step);
+    text += fmt::format("memory     about {:.2g} GB\n", gigabytes);
     text += fmt::format("time       about {} on one core\n", time_in_words(forecast.seconds));
     return text + "nothing was written\n";
 }

@@ -113,7 +113,8 @@ nlohmann::ordered_json stages_as_json() {
     for (recipe::Stage const* const stage : recipe::all_stages()) {
         stages.push_back({{"stage", stage->name},
                           {"runs_if", stage->runs_if()},
-                          {"seconds_a_million_cells", stage->seconds_a_million}});
+                          {"seconds_a_million_cells", stage->seconds_a_million},
+                          {"bytes_a_cell", stage->bytes_a_cell}});
     }
     return stages;
 }

@@ -23,14 +23,21 @@ std::int64_t cells_of_cluster(std::int64_t particles) {
     return std::max<std::int64_t>(1, std::llround(1.2 * radius * radius));
 }
 
-/// Peak memory [bytes] of the whole program; measured on the samples, of 0.01 to 1 million cells.
-std::int64_t memory_of(Recipe const& recipe, std::int64_t cells) {
-    constexpr std::int64_t program = 100'000'000; // with its libraries
+/// What the program takes before it has any cell [bytes], with its libraries.
+constexpr std::int64_t program_bytes = 84'000'000;
+
+/// Peak memory [bytes] of the whole program: that of its largest stage.
+std::int64_t memory_of(Recipe const& recipe, RiverLines const& lines, std::int64_t cells) {
     constexpr std::int64_t a_particle = 60;
-    constexpr std::int64_t a_cell_of_exact_detail = 120; // transforms on a torus of up to seven cells per cell
+    constexpr double a_cell_of_exact_detail = 120.0; // transforms on a torus of up to seven cells per cell
+    double a_cell = bytes_a_cell_of_files;
+    for (Stage const* const one : stages_of(recipe, lines)) {
+        a_cell = std::max(a_cell, one->bytes_a_cell);
+    }
     bool const exact = levels_of(recipe) > 0 && recipe.detail->midpoint.stencil == fractal::Stencil::exact;
-    return program + bytes_needed(cells) * 2 + (exact ? cells * a_cell_of_exact_detail : 0) +
-           (from_cluster(recipe) ? recipe.network->dla.particles * a_particle : 0);
+    double const of_cells = static_cast<double>(cells) * std::max(a_cell, exact ? a_cell_of_exact_detail : 0.0);
+    std::int64_t const of_particles = from_cluster(recipe) ? recipe.network->dla.particles * a_particle : 0;
+    return program_bytes + std::max(static_cast<std::int64_t>(of_cells), of_particles);
 }
 
 /// What a cluster takes besides its cells [s].
@@ -58,6 +65,10 @@ std::int64_t cells_of(Recipe const& recipe, std::optional<Grid> const& grid) {
     return grid ? grid->cells() : cells_of_cluster(recipe.network->dla.particles);
 }
 
+void require_memory(Recipe const& recipe, RiverLines const& lines, Grid const& grid) {
+    require_free(memory_of(recipe, lines, grid.cells()), grid.width, grid.height);
+}
+
 Timings expected_times(Recipe const& recipe, RiverLines const& lines, std::int64_t cells) {
     constexpr double writing = 1.5; // [s] a million cells: files and the page
     double const millions = static_cast<double>(cells) / 1e6;
@@ -79,7 +90,7 @@ Forecast forecast(Plan const& plan) {
         found.seconds += one.wall_s;
     }
     found.stages.pop_back(); // its files
-    found.memory_bytes = memory_of(plan.recipe, found.cells);
+    found.memory_bytes = memory_of(plan.recipe, plan.lines, found.cells);
     found.findings = plan.findings;
     return found;
 }

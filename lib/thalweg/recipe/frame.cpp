@@ -136,15 +136,13 @@ void look(std::vector<Vertex> const& sorted, RiverLines const& lines) {
 
 } // namespace
 
-std::int64_t bytes_needed(std::int64_t cells) {
-    // dem 4, valley 4, level and base 8, drainage 8 + 1 + 4, its queue 16, owners of areas 8, pictures and mask 6
-    constexpr std::int64_t bytes_a_cell = 60;
-    return cells * bytes_a_cell;
+void check_memory(std::int64_t width, std::int64_t height) {
+    constexpr std::int64_t least_a_cell = 10; // DEM 4, areas 4, directions 1, lakes 1
+    require_free(width * height * least_a_cell, width, height);
 }
 
-void check_memory(std::int64_t width, std::int64_t height) {
-    require("recipe.check_memory", fmt::format("grid: {}x{} cells", width, height),
-            bytes_needed(width * height), // sides are at most 1e6 each
+void require_free(std::int64_t bytes, std::int64_t width, std::int64_t height) {
+    require("recipe.require_free", fmt::format("grid: {}x{} cells", width, height), bytes,
             "Make grid.width and grid.height smaller or grid.cell larger.");
 }
 

@@ -86,17 +86,19 @@ void require_skeleton_on_grid(Recipe const& recipe, FeaturePoints const& points,
                               Grid const& grid);
 
 /// \internal
-/// Estimates the peak memory of a terrain.
-/// \param cells number of cells
-/// \return [bytes] upper limit
-std::int64_t bytes_needed(std::int64_t cells);
+/// Checks that the memory which any terrain of this size takes is free: a first check, before its stages are known.
+/// \param width [cells] number of columns, at most 1e6
+/// \param height [cells] number of rows, at most 1e6
+/// \throws BadInput when it is not
+void check_memory(std::int64_t width, std::int64_t height);
 
 /// \internal
-/// Checks the free memory for a terrain.
+/// Checks that this much memory is free for a terrain.
+/// \param bytes that it is expected to take
 /// \param width [cells] number of columns
 /// \param height [cells] number of rows
-/// \throws BadInput when the terrain needs more memory than is free
-void check_memory(std::int64_t width, std::int64_t height);
+/// \throws BadInput when it is not
+void require_free(std::int64_t bytes, std::int64_t width, std::int64_t height);
 
 /// \internal
 /// Checks the free memory for a cluster.

@@ -463,7 +463,7 @@ void require_fit(Plan const& plan) {
     if (!plan.grid) {
         return;
     }
-    check_memory(plan.grid->width, plan.grid->height);
+    require_memory(plan.recipe, plan.lines, *plan.grid);
     check_detail(plan.recipe, plan.grid->width, plan.grid->height);
     require_skeleton_on_grid(plan.recipe, plan.points, plan.ridge_lines, *plan.grid);
 }

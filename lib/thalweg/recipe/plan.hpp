@@ -78,7 +78,7 @@ struct Forecast {
     std::vector<std::string> stages; ///< in order, named as in its timings
     std::optional<Grid> grid;        ///< empty: it depends on rivers that must be grown first
     std::int64_t cells = 0;          ///< of the grid; an estimate if it is unknown
-    std::int64_t memory_bytes = 0;   ///< estimated upper limit
+    std::int64_t memory_bytes = 0;   ///< at its peak, of the whole program; estimated, within some 15 %
     double seconds = 0.0;            ///< [s] estimated, on one core of 2020
     std::vector<Finding> findings;   ///< of the plan
 };

@@ -26,49 +26,53 @@ namespace stage {
 
 using namespace ask;
 
-Stage const raster{"raster", usual, on_raster};
-Stage const read{"read", usual, from_lines or from_strokes};
-Stage const shape{"shape", usual, from_forest};
-Stage const grow{"grow", usual, from_cluster or by_tokunaga or from_forest};
-Stage const thin{"thin", usual, from_cluster};
-Stage const trace{"trace", usual, from_cluster};
-Stage const embed{"embed", usual, by_tokunaga and not given(&TokunagaRecipe::strokes)};
-Stage const adopt{"adopt", usual, from_lines};
-Stage const sea{
-    "sea", usual, from_lines and is(&LinesRecipe::coastlines, {Coastlines::sea}), {has_coastlines, "has coastlines"}};
-Stage const prune{"prune", usual, with_rivers};
-Stage const meander{"meander", 0.7, above(&NetworkRecipe::meander, 0) or grown_for_land};
-Stage const raise{"raise", usual,
+Stage const raster{"raster", usual, 8, on_raster};
+Stage const read{"read", usual, 5, from_lines or from_strokes};
+Stage const shape{"shape", usual, 5, from_forest};
+Stage const grow{"grow", usual, 9, from_cluster or by_tokunaga or from_forest};
+Stage const thin{"thin", usual, 6, from_cluster};
+Stage const trace{"trace", usual, 6, from_cluster};
+Stage const embed{"embed", usual, 6, by_tokunaga and not given(&TokunagaRecipe::strokes)};
+Stage const adopt{"adopt", usual, 6, from_lines};
+Stage const sea{"sea",
+                usual,
+                6,
+                from_lines and is(&LinesRecipe::coastlines, {Coastlines::sea}),
+                {has_coastlines, "has coastlines"}};
+Stage const prune{"prune", usual, 6, with_rivers};
+Stage const meander{"meander", 0.7, 7, above(&NetworkRecipe::meander, 0) or grown_for_land};
+Stage const raise{"raise", usual, 10,
                   with_rivers and (not is(&SurfaceRecipe::method, {Method::equilibrium}) or
                                    not is(&NetworkRecipe::heights, {Heights::graded}))};
 
-Stage const channels{"channels", usual, in_equilibrium};
-Stage const fill_in_equilibrium{"fill", 2.0, in_equilibrium};
-Stage const scatter{"scatter", usual, around_rivers and above(&SkeletonRecipe::scatter, 0)};
-Stage const ridge{"ridge", usual, around_rivers and between_streams};
-Stage const tin{"tin", usual, around_rivers and over_tin};
-Stage const fill_dilated{"fill", 1.0, by_dilation};
-Stage const fill{"fill", 0.8, around_rivers and not is(&SurfaceRecipe::method, {Method::equilibrium, Method::dilate})};
+Stage const channels{"channels", usual, 9, in_equilibrium};
+Stage const fill_in_equilibrium{"fill", 2.0, 22, in_equilibrium};
+Stage const scatter{"scatter", usual, 12, around_rivers and above(&SkeletonRecipe::scatter, 0)};
+Stage const ridge{"ridge", usual, 13, around_rivers and between_streams};
+Stage const tin{"tin", usual, 13, around_rivers and over_tin};
+Stage const fill_dilated{"fill", 1.0, 46, by_dilation};
+Stage const fill{"fill", 0.8, 52,
+                 around_rivers and not is(&SurfaceRecipe::method, {Method::equilibrium, Method::dilate})};
 
-Stage const land{"land", usual, not with_rivers};
-Stage const detail{"detail", usual, not with_rivers and is(&DetailRecipe::method, {DetailMethod::midpoint})};
-Stage const project{"project", 20.0, not with_rivers and has(&Recipe::statistics)};
+Stage const land{"land", usual, 10, not with_rivers};
+Stage const detail{"detail", usual, 20, not with_rivers and is(&DetailRecipe::method, {DetailMethod::midpoint})};
+Stage const project{"project", 20.0, 20, not with_rivers and has(&Recipe::statistics)};
 
-Stage const blend{"blend", 0.7, with_surface and has(&Recipe::patches)};
-Stage const carve{"carve", 0.7, is_conditioned};
-Stage const drain{"drain", usual, with_surface};
-Stage const valleys{"valleys", usual, around_rivers and is(&NetworkRecipe::fill_space, {true})};
-Stage const measure{"measure", usual, with_surface};
-Stage const certify{"certify", usual, around_rivers};
-Stage const ridges{"ridges", usual, around_rivers and (between_streams or given(&SkeletonRecipe::ridge_lines))};
-Stage const areas{"areas", usual,
+Stage const blend{"blend", 0.7, 20, with_surface and has(&Recipe::patches)};
+Stage const carve{"carve", 0.7, 25, is_conditioned};
+Stage const drain{"drain", usual, 20, with_surface};
+Stage const valleys{"valleys", usual, 20, around_rivers and is(&NetworkRecipe::fill_space, {true})};
+Stage const measure{"measure", usual, 22, with_surface};
+Stage const certify{"certify", usual, 25, around_rivers};
+Stage const ridges{"ridges", usual, 38, around_rivers and (between_streams or given(&SkeletonRecipe::ridge_lines))};
+Stage const areas{"areas", usual, 26,
                   with_surface and is(&OutputRecipe::accumulation, {true}) and writes(OutputFiles::areas)};
-Stage const laws{"laws", usual, with_surface};
-Stage const relief{"relief", 0.7, with_surface};
-Stage const catchments{"catchments", usual,
+Stage const laws{"laws", usual, 26, with_surface};
+Stage const relief{"relief", 0.7, 30, with_surface};
+Stage const catchments{"catchments", usual, 30,
                        around_rivers and is(&OutputRecipe::catchments, {true}) and writes(OutputFiles::catchments)};
-Stage const check{"check", usual, with_rivers};
-Stage const compare{"compare", usual, given(&OutputRecipe::against)};
+Stage const check{"check", usual, 29, with_rivers};
+Stage const compare{"compare", usual, 30, given(&OutputRecipe::against)};
 
 } // namespace stage
 

@@ -20,4 +20,10 @@ std::int64_t cells_of(Recipe const& recipe, std::optional<Grid> const& grid);
 /// \param lines of the rivers' file
 Timings expected_times(Recipe const& recipe, RiverLines const& lines, std::int64_t cells);
 
+/// Requires that the memory which a terrain is expected to take is free.
+/// \param recipe with its defaults
+/// \param lines of the rivers' file
+/// \throws BadInput when it is not
+void require_memory(Recipe const& recipe, RiverLines const& lines, Grid const& grid);
+
 } // namespace thalweg::recipe
