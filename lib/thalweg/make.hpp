@@ -18,3 +18,4 @@
 #include <thalweg/make/river_claims.hpp>
 #include <thalweg/make/rivers.hpp>
 #include <thalweg/make/terrain.hpp>
+#include <thalweg/make/valley_cells.hpp>

@@ -61,11 +61,10 @@ TEST(Scarps, TheHarmonicBaseLeavesNone) {
     MakeResult const after = on(Base::harmonic, papers_slope);
     ASSERT_EQ(after.terrain.grid.width, 1024);
     ASSERT_EQ(after.terrain.grid.height, 1024);
-    for (std::int64_t i = 0; i < after.terrain.bed.valley.z.cells(); ++i) {
-        if (float const z = after.terrain.bed.valley.z[i]; !std::isnan(z)) {
-            ASSERT_EQ(z, after.terrain.ground.dem[i]);
-            ASSERT_EQ(z, before.terrain.ground.dem[i]);
-        }
+    ValleyCells const& valley = after.terrain.bed.valley;
+    for (std::size_t i = 0; i < valley.cell.size(); ++i) {
+        ASSERT_EQ(valley.z[i], after.terrain.ground.dem[valley.cell[i]]);
+        ASSERT_EQ(valley.z[i], before.terrain.ground.dem[valley.cell[i]]);
     }
     Scarps const paper = scarps_of(before.terrain.ground.dem);
     Scarps const harmonic = scarps_of(after.terrain.ground.dem);

@@ -39,7 +39,7 @@ TEST(Recipes010, RunAndGiveTheirOldTerrain) {
             EXPECT_TRUE(c.ok || crowded) << name << " " << c.name << " " << c.value;
         }
         text += fmt::format("{} {}\n", name,
-                            hash_of(t.terrain.has_surface() ? t.terrain.ground.dem : t.terrain.bed.valley.z));
+                            hash_of(t.terrain.has_surface() ? t.terrain.ground.dem : t.terrain.bed.valley.raster()));
     }
     expect_golden("recipes_0_1_0/hashes.txt", text); // made of dem.tif as 0.1.0 wrote it; a network alone: its valley
 }

@@ -167,10 +167,11 @@ Against compare_with_dem(Raster<float> const& of_file, std::string const& name, 
                         name, found.cells, least_cells);
     found.real = shape_of(dem, compared, run);
     double const slope_deg = found.real.mean_slope_deg;
-    NearRivers const near = near_rivers_of(terrain.bed.valley, run);
+    Valley const valley{terrain.bed.valley.raster()};
+    NearRivers const near = near_rivers_of(valley, run);
     std::vector<Raster<float>> terrains{own, steepened(near.z, near.distance_m, slope_deg, compared, run),
                                         over_tin(terrain.rivers.network, near.z, run),
-                                        dilation(terrain.bed.valley, slope_deg, compared, run)};
+                                        dilation(valley, slope_deg, compared, run)};
     for (Raster<float>& one : terrains) { // all have the DEM's gaps, where water leaves
         for (std::int64_t i = 0; i < dem.cells(); ++i) {
             one[i] = std::isnan(dem[i]) ? nothing : one[i];

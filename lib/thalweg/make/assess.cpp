@@ -31,10 +31,10 @@ std::int64_t uphill_arcs(ElevatedNetwork const& network) {
     });
 }
 
-std::int64_t valley_cells_moved(Valley const& valley, Raster<float> const& dem) {
+std::int64_t valley_cells_moved(ValleyCells const& valley, Raster<float> const& dem) {
     std::int64_t moved = 0;
-    for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        moved += !std::isnan(valley.z[i]) && !(valley.z[i] == dem[i]);
+    for (std::size_t i = 0; i < valley.cell.size(); ++i) {
+        moved += valley.z[i] == dem[valley.cell[i]] ? 0 : 1;
     }
     return moved;
 }

@@ -18,10 +18,10 @@ namespace thalweg::make {
 namespace {
 
 /// Whether a cell is a river's or lies beside one.
-bool at_river(Valley const& valley, std::int64_t cell) {
-    Grid const& grid = valley.z.grid();
+bool at_river(ValleyCells const& valley, std::int64_t cell) {
+    Grid const& grid = valley.grid;
     bool found = false;
-    cells_around(grid, grid.at(cell), 1, [&](Cell c) { found = found || !std::isnan(valley.z[c]); });
+    cells_around(grid, grid.at(cell), 1, [&](Cell c) { found = found || has_river(valley, grid.index(c)); });
     return found;
 }
 
@@ -75,7 +75,7 @@ std::optional<GivenFeatures> given_features(recipe::Recipe const& recipe, Featur
     std::int64_t number = 0;
     for (Vec3 const& p : points.points) {
         given.points.push_back({++number, in_plan(p), p.z, static_cast<double>(dem[dem.grid().cell_of(in_plan(p))]),
-                                !std::isnan(terrain.bed.valley.z[dem.grid().cell_of(in_plan(p))])});
+                                has_river(terrain.bed.valley, dem.grid().index(dem.grid().cell_of(in_plan(p))))});
     }
     for (RiverLine const& ridge : ridges.lines) {
         given.ridges.push_back(ridge_off(ridge, terrain));

@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include <thalweg/core/append.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/io/crs/crs.hpp>
@@ -46,11 +47,7 @@ TerrainRelief relief_of_terrain(recipe::Recipe const& recipe, Terrain const& ter
         std::vector<std::int64_t> cells =
             terrain.bed.channels.cell; // side valleys grown by the terrain climb its slopes
         if (!terrain.ground.equilibrium()) {
-            for (std::int64_t i = 0; i < terrain.bed.valley.z.cells(); ++i) {
-                if (!std::isnan(terrain.bed.valley.z[i])) {
-                    cells.push_back(i);
-                }
-            }
+            append(cells, terrain.bed.valley.cell);
         }
         double const rise_m = portable::sin(mean_slope) / portable::cos(mean_slope) * dem.grid().cell_m;
         found.perched = static_cast<std::int64_t>(measure::perched(dem, cells, rise_m).size());

@@ -188,15 +188,15 @@ std::vector<std::int64_t> cells_of(std::vector<NodeId> const& nodes, StreamNetwo
     return cells;
 }
 
-Mask river_mask(Valley const& valley) {
-    Mask cells(valley.z.grid());
-    for (std::int64_t i = 0; i < cells.cells(); ++i) {
-        cells[i] = std::isnan(valley.z[i]) ? 0 : 1;
+Mask river_mask(ValleyCells const& valley) {
+    Mask cells(valley.grid);
+    for (CellIndex const cell : valley.cell) {
+        cells[cell] = 1;
     }
     return cells;
 }
 
-Valley honoured_valley(Valley valley, StreamNetwork const& network, Raster<float> const& dem) {
+ValleyCells honoured_valley(ValleyCells const& valley, StreamNetwork const& network, Raster<float> const& dem) {
     Grid const& grid = dem.grid();
     Mask honoured(grid);
     std::vector<std::uint8_t> cut(network.node_count(), 0); // by node: water from here does not reach the outlet
@@ -208,15 +208,20 @@ Valley honoured_valley(Valley valley, StreamNetwork const& network, Raster<float
         bool is_cut = cut[network.to(arc)] != 0;
         std::vector<Cell> const cells = cells_along(network.arc(arc).line, grid);
         for (auto cell = cells.rbegin(); cell != cells.rend(); ++cell) {
-            is_cut = is_cut || !(valley.z[*cell] == dem[*cell] || std::isnan(valley.z[*cell]));
+            float const z = height_in(valley, grid.index(*cell));
+            is_cut = is_cut || !(z == dem[*cell] || std::isnan(z));
             honoured[*cell] = is_cut ? honoured[*cell] : 1;
         }
         cut[node] = is_cut ? 1 : 0;
     }
-    for (std::int64_t i = 0; i < grid.cells(); ++i) {
-        valley.z[i] = honoured[i] != 0 ? valley.z[i] : std::numeric_limits<float>::quiet_NaN();
+    ValleyCells kept{.grid = valley.grid};
+    for (std::size_t i = 0; i < valley.cell.size(); ++i) {
+        if (honoured[valley.cell[i]] != 0) {
+            kept.cell.push_back(valley.cell[i]);
+            kept.z.push_back(valley.z[i]);
+        }
     }
-    return valley;
+    return kept;
 }
 
 FileReaches reaches_of_file(NetworkFile const& file, Grid const& grid) {

@@ -11,6 +11,7 @@
 #include <thalweg/core/river_files.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/flow/catchments.hpp>
+#include <thalweg/make/valley_cells.hpp>
 
 namespace thalweg::make {
 
@@ -38,10 +39,10 @@ std::vector<NodeId> inland_ends(StreamNetwork const& network, Raster<float> cons
 std::vector<std::int64_t> cells_of(std::vector<NodeId> const& nodes, StreamNetwork const& network, Grid const& grid);
 
 /// 1 in the cells of a valley.
-Mask river_mask(Valley const& valley);
+Mask river_mask(ValleyCells const& valley);
 
 /// A valley without the cells in which the DEM has other heights, and without what lies upstream of these.
-Valley honoured_valley(Valley valley, StreamNetwork const& network, Raster<float> const& dem);
+ValleyCells honoured_valley(ValleyCells const& valley, StreamNetwork const& network, Raster<float> const& dem);
 
 /// What the arcs of a network file are to the land of a DEM.
 struct FileReaches {

@@ -14,6 +14,7 @@
 #include <thalweg/make/internal/lakes.hpp>
 #include <thalweg/make/internal/raise_rivers.hpp>
 #include <thalweg/make/river_claims.hpp>
+#include <thalweg/make/valley_cells.hpp>
 #include <thalweg/network/channels/channels.hpp>
 #include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/vectorise/rasterise.hpp>
@@ -133,10 +134,10 @@ RaisedRivers laid_on_raster(recipe::Recipe const& recipe, Raster<float> const& d
     WithLakes drawn = with_lakes(recipe, planform, network::channels(planform.network, planform.grid, {}, run), run);
     Channels& channels = drawn.rivers.channels;
     RaisedRivers laid;
-    laid.valley = bed_of(channels, dem, recipe.surface->source);
+    Valley valley = bed_of(channels, dem, recipe.surface->source);
     if (recipe.network->inland == recipe::InlandEnds::sink) {
         std::vector<NodeId> const sinks = inland_ends(planform.network, dem);
-        laid.valley = with_sinks_lowest(std::move(laid.valley), cells_of(sinks, planform.network, planform.grid), dem);
+        valley = with_sinks_lowest(std::move(valley), cells_of(sinks, planform.network, planform.grid), dem);
     }
     Raster<float> cut = dem;
     CellIndex deepest = 0;
@@ -144,16 +145,17 @@ RaisedRivers laid_on_raster(recipe::Recipe const& recipe, Raster<float> const& d
     double raised_m = 0.0;
     for (std::size_t i = 0; i < channels.cell.size(); ++i) {
         CellIndex const cell = channels.cell[i];
-        double const by_m = static_cast<double>(cut[cell]) - static_cast<double>(laid.valley.z[cell]);
+        double const by_m = static_cast<double>(cut[cell]) - static_cast<double>(valley.z[cell]);
         laid.statistics.lowered_cells += by_m > 0.0 ? 1 : 0;
         deepest = by_m > laid.statistics.max_lowered_m ? cell : deepest;
         laid.statistics.max_lowered_m = std::max(laid.statistics.max_lowered_m, by_m);
         bool const is_floor = !channels.level.empty() && channels.level[i] != 0;
         most_raised = !is_floor && -by_m > raised_m ? cell : most_raised;
         raised_m = is_floor ? raised_m : std::max(raised_m, -by_m);
-        cut[cell] = laid.valley.z[cell];
+        cut[cell] = valley.z[cell];
     }
     laid.network = network::elevate_from_dem(planform.network, channels, cut);
+    laid.valley = valley_cells(valley);
     auto const centre_of = [&](CellIndex cell) { return dem.grid().centre(dem.grid().at(cell)); };
     laid.findings = std::move(drawn.rivers.notes);
     append(laid.findings, drawn.notes);
@@ -195,7 +197,7 @@ RaisedRivers raise_rivers(recipe::Recipe const& recipe, Raster<float> const& dem
     RiversWithHeights raised =
         stage_log.stage(recipe::stage::raise.name, [&] { return elevated(recipe, planform, run); });
     network::RasterisedRivers cells = network::rasterise(raised.network, planform.grid);
-    return {std::move(raised.network), std::move(cells.valley),
+    return {std::move(raised.network), valley_cells(cells.valley),
             HeightsStatistics{raised.repair, cells.lowered_cells, cells.max_lowered_m}, std::move(raised.areas)};
 }
 

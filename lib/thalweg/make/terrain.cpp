@@ -59,7 +59,7 @@ Surface drawn(TerrainInput const& in, Run const& run) {
         run, "surface", [&] { return recipe::cache_key(in.surface.recipe); },
         [&] { return undrained(in.surface, in.grid, run); },
         [](Surface const& made) {
-            constexpr std::int64_t of_cell = 16; // heights, valley, levels
+            constexpr std::int64_t of_cell = 16; // heights, rivers, levels
             return of_cell * made.ground.dem.cells();
         });
 }
@@ -98,7 +98,7 @@ std::vector<CellIndex> sinks_of(recipe::Recipe const& recipe, Raster<float> cons
 /// A surface with the recipe's patches, in their order; rivers keep their cells' heights unless a patch says otherwise.
 Surface with_patches(Surface surface, recipe::Recipe const& recipe, StageLog& stage_log, Run const& run) {
     Ground& ground = surface.ground;
-    Valley& valley = surface.bed.valley;
+    ValleyCells& valley = surface.bed.valley;
     for (recipe::PatchRecipe const& patch : recipe.patches) {
         bool const keeps = patch.rivers == recipe::PatchRivers::keep && recipe.network.has_value();
         BlendedDem made = stage_log.stage(recipe::stage::blend.name, [&] {
@@ -111,7 +111,7 @@ Surface with_patches(Surface surface, recipe::Recipe const& recipe, StageLog& st
             fmt::format("{} cells of {}, seam {:.2g} m", made.pasted.cells, patch.source, made.pasted.seam_rms_m));
     }
     if (recipe.network && replaces_rivers(recipe)) {
-        valley = honoured_valley(std::move(valley), surface.rivers.network.planform, ground.dem);
+        valley = honoured_valley(valley, surface.rivers.network.planform, ground.dem);
     }
     return surface;
 }
@@ -125,25 +125,19 @@ struct ConditionedDem {
 };
 
 /// Conditions a surface. Water leaves the land in sinks: meanwhile they are holes in it.
-ConditionedDem conditioned(recipe::Recipe const& recipe, Raster<float> dem, Valley const& rivers,
+ConditionedDem conditioned(recipe::Recipe const& recipe, Raster<float> dem, ValleyCells const& rivers,
                            StreamNetwork const& network, StageLog& stage_log, Run const& run) {
     if (!recipe::stage::carve.runs(recipe)) {
         return {std::move(dem)};
     }
     constexpr float hole = std::numeric_limits<float>::quiet_NaN();
     std::vector<CellIndex> const sinks = sinks_of(recipe, dem, network);
-    Valley changed;
-    if (!recipe.network) {
-        changed.z = Raster<float>(dem.grid(), hole);
-    } else if (!sinks.empty()) {
-        changed = rivers;
-    }
+    Valley valley{recipe.network ? rivers.raster() : Raster<float>(dem.grid(), hole)};
     std::vector<float> heights;
     for (CellIndex const sink : sinks) {
         heights.push_back(std::exchange(dem[sink], hole));
-        changed.z[sink] = hole;
+        valley.z[sink] = hole;
     }
-    Valley const& valley = changed.z.cells() > 0 ? changed : rivers;
     flow::ConditionedDem result = stage_log.stage(recipe::stage::carve.name, [&] {
         return flow::condition(std::move(dem), valley, {*recipe.surface->drain}, run);
     });
@@ -190,15 +184,20 @@ RiversInBed with_side_valleys(RiversInBed made, recipe::NetworkRecipe const& wan
     // Lengths at which each is kept.
     TypedNetwork typed = type_rivers(network::prune(network.planform, {0.0, grid.cell_m}, run).network, wanted, run);
     network.planform = std::move(typed.network);
+    std::vector<std::pair<CellIndex, float>> heights;
+    for (std::size_t i = 0; i < made.bed.valley.cell.size(); ++i) {
+        heights.emplace_back(made.bed.valley.cell[i], made.bed.valley.z[i]);
+    }
     for (ArcId a = 0; a < network.planform.arc_count(); ++a) {
         Arc const& of = network.planform.arc(a);
         bool const leaves = network.planform.out(network.planform.to(a)) == no_arc;
         for (std::size_t v = 0; !of.is_input && v + (leaves ? 0 : 1) < of.line.size();
              ++v) { // the last may join a line
             std::int64_t const cell = grid.index(grid.cell_of(of.line[v]));
-            made.bed.valley.z[cell] = dem[cell];
+            heights.emplace_back(cell, dem[cell]);
         }
     }
+    made.bed.valley = valley_cells(grid, std::move(heights));
     made.bed.grown = found.grown;
     made.bed.left_out = found.left_out;
     made.rivers = rivers_of(std::move(network), std::move(typed.types), std::move(made.rivers.clues));

@@ -17,12 +17,13 @@
 #include <thalweg/make/ground.hpp>
 #include <thalweg/make/planform.hpp>
 #include <thalweg/make/rivers.hpp>
+#include <thalweg/make/valley_cells.hpp>
 
 namespace thalweg::make {
 
 /// The cells in which rivers run, and how they got their heights.
 struct RiverBed {
-    Valley valley = {};
+    ValleyCells valley = {};
     Channels channels = {};         ///< of rivers with which the surface is in equilibrium, and of lakes
     std::int64_t lakes = 0;         ///< in them
     HeightsStatistics heights = {}; ///< of rivers whose heights do not follow from the surface

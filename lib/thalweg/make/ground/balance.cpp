@@ -379,12 +379,13 @@ void warn_of_heights(Raster<float> const& dem, bool rebuilt, StageLog& stage_log
     }
 }
 
-Valley valley_of(Channels const& channels, Raster<float> const& dem) {
-    Valley valley{Raster<float>(dem.grid(), none)};
-    for (std::int64_t const cell : channels.cell) {
-        valley.z[cell] = dem[cell];
+ValleyCells valley_of(Channels const& channels, Raster<float> const& dem) {
+    std::vector<std::pair<CellIndex, float>> heights;
+    heights.reserve(channels.cell.size());
+    for (CellIndex const cell : channels.cell) {
+        heights.emplace_back(cell, dem[cell]);
     }
-    return valley;
+    return valley_cells(dem.grid(), std::move(heights));
 }
 
 /// Checks of what the recipe asks of the surface, and warnings.

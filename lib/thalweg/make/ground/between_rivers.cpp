@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/make/internal/between_rivers.hpp>
 
-#include <cmath>
+#include <cstddef>
 #include <limits>
 #include <utility>
 
@@ -30,7 +30,7 @@ std::vector<Vec3> in_space(std::vector<Vec2> const& line, std::vector<double> co
 }
 
 /// Random points between the rivers.
-skeleton::ScatteredPoints scattered(recipe::Recipe const& recipe, Valley const& valley, Mask const& inside,
+skeleton::ScatteredPoints scattered(recipe::Recipe const& recipe, ValleyCells const& valley, Mask const& inside,
                                     StageLog& stage_log, Run const& run) {
     recipe::SkeletonRecipe const& wanted = *recipe.skeleton;
     skeleton::ScatterBetweenParams params;
@@ -41,22 +41,24 @@ skeleton::ScatteredPoints scattered(recipe::Recipe const& recipe, Valley const& 
     params.farthest_m = wanted.ridge_farthest_m;
     params.law = wanted.law;
     skeleton::ScatteredPoints points = stage_log.stage(
-        recipe::stage::scatter.name, [&] { return skeleton::scatter_between(valley, inside, params, run); });
+        recipe::stage::scatter.name, [&] { return skeleton::scatter_between({valley.raster()}, inside, params, run); });
     stage_log.say(fmt::format("{} points", points.points.points.size()));
     return points;
 }
 
 /// The cells of the terrain: those of the recipe's mask, or all; without the sea.
-Mask inside_of(recipe::Recipe const& recipe, Mask const& land, Valley const& valley, Run const& run) {
+Mask inside_of(recipe::Recipe const& recipe, Mask const& land, ValleyCells const& valley, Run const& run) {
     if (recipe.surface->mask.empty()) {
-        return land.values().empty() ? Mask(valley.z.grid(), 1) : land;
+        return land.values().empty() ? Mask(valley.grid, 1) : land;
     }
-    Grid const& grid = valley.z.grid();
+    Grid const& grid = valley.grid;
     Mask inside = recipe::read_mask_of_land(recipe::file_in(recipe, recipe.surface->mask), grid, run);
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         inside[i] = inside[i] != 0 && (land.values().empty() || land[i] != 0) ? 1 : 0;
-        if (inside[i] == 0 && !std::isnan(valley.z[i])) {
-            Cell const c = grid.at(i);
+    }
+    for (CellIndex const cell : valley.cell) {
+        if (inside[cell] == 0) {
+            Cell const c = grid.at(cell);
             Vec2 const at = grid.centre(c);
             throw BadInput("make.make_terrain",
                            fmt::format("surface.mask = \"{}\" leaves out cell ({}, {}) at ({:.1f}, {:.1f}), where a "
@@ -110,17 +112,17 @@ RidgeLines joined(RidgeLines some, RidgeLines const& others) {
     return some;
 }
 
-Raster<float> with_valley(Raster<float> dem, Valley const& valley) {
-    for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        dem[i] = std::isnan(valley.z[i]) ? dem[i] : valley.z[i];
+Raster<float> with_valley(Raster<float> dem, ValleyCells const& valley) {
+    for (std::size_t i = 0; i < valley.cell.size(); ++i) {
+        dem[valley.cell[i]] = valley.z[i];
     }
     return dem;
 }
 
 Raster<float> over_triangles(Between const& between, Run const& run) {
-    return with_valley(surface::rasterise_tin(between.tin, between.valley.z.grid(),
-                                              {surface::RasteriseTinParams::Outside::nearest}, run),
-                       between.valley);
+    return with_valley(
+        surface::rasterise_tin(between.tin, between.valley.grid, {surface::RasteriseTinParams::Outside::nearest}, run),
+        between.valley);
 }
 
 Raster<float> only_inside(Raster<float> dem, Mask const& inside) {
@@ -166,7 +168,7 @@ Between between_rivers(GroundInput const& in, StageLog& stage_log, Run const& ru
     between.ridges = ridges_between(in, between.rivers, stage_log, run);
     if (!in.ridges.lines.empty()) {
         between.given = skeleton::ridges_with_heights(
-            in.ridges, between.valley,
+            in.ridges, {between.valley.raster()},
             {.gain = recipe.skeleton->ridge_gain, .farthest_m = recipe.skeleton->ridge_farthest_m}, run);
     }
     append(between.points.points, in.points.points);

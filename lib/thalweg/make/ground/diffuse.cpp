@@ -20,7 +20,8 @@ Skeleton gathered_skeleton(recipe::Recipe const& recipe, Between const& between,
     params.noise.amplitude_m = wanted.ridge_noise_m;
     params.noise.wavelength_m = wanted.ridge_wavelength_m;
     params.noise.seed = recipe.seed;
-    Skeleton skeleton = skeleton::draw_skeleton(between.valley, between.ridges, between.points, params, run).skeleton;
+    Skeleton skeleton =
+        skeleton::draw_skeleton({between.valley.raster()}, between.ridges, between.points, params, run).skeleton;
     if (wanted.midpoint_inverse_cells > 0.0) {
         skeleton = skeleton::midpoint_inverse(skeleton, {wanted.midpoint_inverse_cells}, run);
     }

@@ -48,17 +48,11 @@ Raster<float> through_points(Raster<float> dem, Between const& between, Run cons
     for (auto const& [cell, z] : highest) {
         cells.push_back({cell, z});
     }
-    std::vector<std::int64_t> rivers;
-    for (std::int64_t i = 0; i < grid.cells(); ++i) {
-        if (!std::isnan(between.valley.z[i])) {
-            rivers.push_back(i);
-        }
-    }
-    return surface::through_heights(std::move(dem), rivers, cells, run);
+    return surface::through_heights(std::move(dem), between.valley.cell, cells, run);
 }
 
 surface::DilatedDem dilated_on(recipe::SurfaceRecipe const& wanted, Between const& between, Run const& run) {
-    Valley const& valley = between.valley;
+    Valley const valley{between.valley.raster()};
     if (wanted.base == recipe::Base::paper) { // without a mask by the closed form
         return between.is_whole ? surface::dilate(valley, wanted.dilate, run)
                                 : surface::dilate(valley, between.inside, wanted.dilate, run);

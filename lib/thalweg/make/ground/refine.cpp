@@ -17,6 +17,7 @@
 #include <thalweg/fractal/midpoint.hpp>
 #include <thalweg/make/internal/ground.hpp>
 #include <thalweg/make/internal/numbers.hpp>
+#include <thalweg/make/valley_cells.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/recipe/check_recipe.hpp>
 #include <thalweg/recipe/read_inputs.hpp>
@@ -197,11 +198,11 @@ DetailedDem detail_alone(recipe::Recipe const& recipe, Grid const& grid, Run con
 }
 
 /// Adds fractal detail: none in the valleys, all of it some cells away.
-DetailedDem beside_rivers(recipe::Recipe const& recipe, Raster<float> dem, Valley const& valley, Run const& run) {
+DetailedDem beside_rivers(recipe::Recipe const& recipe, Raster<float> dem, ValleyCells const& valley, Run const& run) {
     constexpr double near_cells = 8.0; // within which detail grows from nothing to two thirds
     DetailedDem const detail = detail_alone(recipe, dem.grid(), run);
     Raster<float> result = std::move(dem);
-    surface::Expansion const expansion = surface::expand(valley, run);
+    surface::Expansion const expansion = surface::expand({valley.raster()}, run);
     for (std::int64_t i = 0; i < result.cells(); ++i) {
         double const share = 1.0 - portable::exp(-static_cast<double>(expansion.level[i]) / near_cells);
         result[i] = static_cast<float>(static_cast<double>(result[i]) + share * static_cast<double>(detail.dem[i]));

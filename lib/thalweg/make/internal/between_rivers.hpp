@@ -10,6 +10,7 @@
 #include <thalweg/core/run/stage_log.hpp>
 #include <thalweg/core/tin.hpp>
 #include <thalweg/make/internal/ground.hpp>
+#include <thalweg/make/valley_cells.hpp>
 #include <thalweg/recipe/recipe.hpp>
 #include <thalweg/skeleton/scatter.hpp>
 
@@ -18,7 +19,7 @@ namespace thalweg::make {
 /// What a surface between rivers is drawn through.
 struct Between {
     Rivers rivers;
-    Valley valley;
+    ValleyCells valley;
     RidgeLines ridges = {};     ///< midway between streams
     RidgeLines given = {};      ///< with heights at all vertices
     Tin tin = {};               ///< without vertices where none is asked for
@@ -48,7 +49,7 @@ Tin triangulated(recipe::Recipe const& recipe, ElevatedNetwork const& network, R
 RidgeLines joined(RidgeLines some, RidgeLines const& others);
 
 /// A surface with the heights of valley cells.
-Raster<float> with_valley(Raster<float> dem, Valley const& valley);
+Raster<float> with_valley(Raster<float> dem, ValleyCells const& valley);
 
 /// A surface over the triangles between rivers. Valley cells keep their heights.
 Raster<float> over_triangles(Between const& between, Run const& run);

@@ -14,6 +14,7 @@
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/make/planform.hpp>
 #include <thalweg/make/rivers.hpp>
+#include <thalweg/make/valley_cells.hpp>
 #include <thalweg/recipe/recipe.hpp>
 
 namespace thalweg::make {
@@ -21,7 +22,7 @@ namespace thalweg::make {
 /// Rivers with heights that do not follow from a surface.
 struct RaisedRivers {
     ElevatedNetwork network = {};
-    Valley valley = {};
+    ValleyCells valley = {};
     HeightsStatistics statistics = {};
     std::optional<flow::ContributingAreas> areas = {}; ///< by the nearest river, where the heights follow from them
     std::vector<Finding> findings = {};                ///< on rivers that meet in their cells, on lakes
