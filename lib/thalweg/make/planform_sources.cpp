@@ -232,24 +232,22 @@ SourceRivers rivers_of_tree(RiversInput const& in, StageLog& stage_log, Run cons
 }
 
 // Trees that grow from a coast or border inland until the land is full of them. Every outlet lies there.
-SourceRivers rivers_of_forest(recipe::Recipe const& recipe, recipe::ForestLand const& on, StageLog& stage_log,
-                              Run const& run) {
+SourceRivers rivers_of_forest(recipe::Recipe const& recipe, Grid const& grid, recipe::ForestLand const& on,
+                              StageLog& stage_log, Run const& run) {
     recipe::ForestRecipe const& wanted = recipe.network->forest;
     growth::ForestParams params = wanted.growth;
     params.step_cells = wanted.spacing_cells / 2;
     params.seed = recipe.seed;
-    growth::PlantedForest planted = stage_log.stage(
-        recipe::stage::grow.name, [&] { return growth::plant_forest(on.land, on.outlets, params, run); });
+    growth::PlantedForest planted = stage_log.stage(recipe::stage::grow.name, [&] {
+        return growth::plant_forest(on.has_sea ? on.land : Mask(grid, 1), on.outlets, params, run);
+    });
     stage_log.say(fmt::format("{} trees of {} particles  seed {}", planted.outlets, planted.particles, recipe.seed));
     stage_log.find(planted.notes);
     NetworkStatistics statistics;
     statistics.particles = planted.particles;
     statistics.walkers = planted.walkers;
     statistics.full = planted.stop == growth::ForestStop::full;
-    return {.network = std::move(planted.network),
-            .grid = on.land.grid(),
-            .land = on.has_sea ? on.land : Mask{},
-            .statistics = std::move(statistics)};
+    return {.network = std::move(planted.network), .grid = grid, .land = on.land, .statistics = std::move(statistics)};
 }
 
 /// The lines of the file that are not rivers.
@@ -550,7 +548,7 @@ SourceRivers rivers_by_source(RiversInput const& in, StageLog& stage_log, Run co
     switch (in.recipe.network->source) {
     case recipe::Source::dla: return rivers_of_cluster(in.recipe, stage_log, run);
     case recipe::Source::tokunaga: return rivers_of_tree(in, stage_log, run);
-    case recipe::Source::forest: return rivers_of_forest(in.recipe, *in.forest, stage_log, run);
+    case recipe::Source::forest: return rivers_of_forest(in.recipe, *in.grid, *in.forest, stage_log, run);
     case recipe::Source::lines: break;
     }
     return rivers_of_lines(in, stage_log, run);

@@ -157,14 +157,18 @@ Recipe on_crs_of_region(Recipe recipe) {
 }
 
 // The land of a recipe with its CRS (the region's polygons, an island, or all of the grid) and its outlets.
-ForestLand forest_land(Recipe const& recipe, Raster<float> const& raster, StageLog& stage_log, Run const& run) {
+ForestLand forest_land(Recipe const& recipe, Mask land, Raster<float> const& raster, StageLog& stage_log,
+                       Run const& run) {
     ForestLand found;
-    found.land = stage_log.stage(stage::shape.name, [&] { return land_of(recipe, run); });
+    found.land = std::move(land);
     for (std::int64_t i = 0; i < raster.cells(); ++i) {
         found.land[i] = std::isnan(raster[i]) ? 0 : found.land[i];
     }
     found.outlets = outlets_of(recipe, found.land, stage_log, run);
     found.has_sea = std::ranges::any_of(found.land.values(), [](std::uint8_t v) { return v == 0; });
+    if (!found.has_sea) {
+        found.land = {};
+    }
     return found;
 }
 
@@ -248,8 +252,9 @@ Plan plan_cluster(Recipe recipe) {
 Plan plan_forest(Recipe recipe, Raster<float> const& raster, StageLog& stage_log, Run const& run) {
     Plan plan;
     plan.recipe = on_crs_of_region(std::move(recipe));
-    plan.forest = forest_land(plan.recipe, raster, stage_log, run);
-    plan.grid = plan.forest->land.grid();
+    Mask land = stage_log.stage(stage::shape.name, [&] { return land_of(plan.recipe, run); });
+    plan.grid = land.grid();
+    plan.forest = forest_land(plan.recipe, std::move(land), raster, stage_log, run);
     return plan;
 }
 

@@ -21,7 +21,7 @@ namespace thalweg::recipe {
 
 /// Where a forest may grow.
 struct ForestLand {
-    Mask land;                 ///< 0: sea
+    Mask land;                 ///< 0: sea; without cells where there is none
     bool has_sea = false;      ///< some cell is sea
     std::vector<Cell> outlets; ///< on its coast
 };
