@@ -3,14 +3,20 @@
 #include <thalweg/io/raster/dem_derivatives.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <functional>
 #include <memory>
+#include <span>
+#include <utility>
 
 #include <fmt/format.h>
 #include <gdal_alg.h>
 #include <gdal_priv.h>
 #include <gdal_utils.h>
-#include <ogrsf_frmts.h>
 
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
@@ -71,40 +77,6 @@ void require_few_levels(Raster<float> const& dem, double interval_m) {
                             interval_m, high - low, most_levels);
 }
 
-/// Simplifies contours, except for those that would then cross themselves or others.
-std::vector<ContourLine> simplified(std::vector<ContourLine> lines, double tolerance_m, Run const& run) {
-    std::vector<std::vector<Vec2>> few;
-    std::vector<geometry::EndNodes> ends;
-    for (ContourLine const& line : lines) {
-        few.push_back(geometry::simplify(line.line, tolerance_m));
-        bool const is_closed = line.line.front() == line.line.back();
-        if (is_closed && few.back().size() <= 3) { // the smallest rings would be points
-            few.back() = line.line;
-        }
-        std::size_t const node = 2 * ends.size();
-        ends.push_back({node, is_closed ? node : node + 1});
-    }
-    for (bool again = true; again;) {
-        again = false;
-        for (geometry::Meeting const& meeting : geometry::meetings(few, ends, run)) {
-            bool const closes_ring = meeting.line == meeting.other && meeting.segment == 0 &&
-                                     meeting.other_segment + 2 == few[meeting.line].size() && !meeting.is_stretch() &&
-                                     meeting.at == few[meeting.line].back();
-            if (closes_ring) {
-                continue;
-            }
-            for (std::size_t const i : {meeting.line, meeting.other}) {
-                again = again || few[i].size() != lines[i].line.size();
-                few[i] = lines[i].line;
-            }
-        }
-    }
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-        lines[i].line = std::move(few[i]);
-    }
-    return lines;
-}
-
 /// Whether a ring lies within a square of this size, as around a cell whose height is that of the contour.
 bool is_dot(std::vector<Vec2> const& line, double size_m) {
     auto const [west, east] = std::ranges::minmax(line, {}, &Vec2::x);
@@ -112,43 +84,133 @@ bool is_dot(std::vector<Vec2> const& line, double size_m) {
     return line.front() == line.back() && east.x - west.x < size_m && north.y - south.y < size_m;
 }
 
-/// The contours as GDAL traces them.
-std::vector<ContourLine> drawn(Raster<float> const& dem, double interval_m, Run const& run) {
-    Driver const driver;
-    Dataset const source = dataset_of(dem, {"io.contours", ""});
-    if (std::ranges::all_of(dem.values(), [](float z) { return std::isnan(z); })) {
-        return {}; // GDAL 3.9 rejects such a raster
+/// Traces contours with GDAL, which does not support exceptions.
+class Tracer {
+public:
+    /// Gets one line after the other: its height, and its vertices in the grid's CRS when it asks for them.
+    using Vertices = std::function<std::vector<Vec2>()>;
+    using Take = std::function<void(double z, Vertices const& vertices)>;
+
+    /// dem, driver: outlive this object
+    Tracer(Raster<float> const& dem, double interval_m, Driver const& driver)
+        : dem_(dem), interval_m_(interval_m), driver_(driver), source_(dataset_of(dem, {"io.contours", ""})) {
+        source_->GetGeoTransform(place_.data());
     }
-    Dataset const memory(GetGDALDriverManager()->GetDriverByName("Memory")->Create("", 0, 0, 0, GDT_Unknown, nullptr));
-    OGRLayer* const layer = memory->CreateLayer("contours", nullptr, wkbLineString, nullptr);
-    OGRFieldDefn z_field("z", OFTReal);
-    layer->CreateField(&z_field);
-    CPLStringList options;
-    options.SetNameValue("LEVEL_INTERVAL", fmt::format("{}", interval_m).c_str());
-    options.SetNameValue("ELEV_FIELD", "0");
-    options.SetNameValue("NODATA", fmt::format("{}", nodata_height).c_str());
-    GdalProgress gdal_progress(run, "contours");
-    CPLErr const error =
-        GDALContourGenerateEx(GDALRasterBand::ToHandle(source->GetRasterBand(1)), OGRLayer::ToHandle(layer),
-                              options.List(), &GdalProgress::step, &gdal_progress);
-    gdal_progress.settle();
-    driver.check("io.contours");
-    refuse_if<IoError>(error != CE_None, "io.contours", "io.contours failed");
-    std::vector<ContourLine> lines;
-    for (auto const& feature : *layer) {
-        OGRLineString const& drawn_line = *feature->GetGeometryRef()->toLineString();
-        ContourLine line{feature->GetFieldAsDouble(0), {}};
-        for (OGRPoint const& p : drawn_line) {
-            if (Vec2 const at{p.getX(), p.getY()}; line.line.empty() || line.line.back() != at) {
-                line.line.push_back(at);
+
+    void trace(Take const& take, Run const& run) const {
+        struct End {
+            void operator()(void* tracer) const { GDAL_CG_Destroy(tracer); }
+        };
+        Task task{*this, take, nullptr};
+        std::unique_ptr<void, End> tracer(GDAL_CG_Create(source_->GetRasterXSize(), source_->GetRasterYSize(), FALSE,
+                                                         0.0, interval_m_, 0.0, &Tracer::add, &task));
+        std::vector<double> heights(static_cast<std::size_t>(dem_.width()));
+        bool is_traced = tracer != nullptr;
+        for (std::int64_t row = 0; is_traced && row < dem_.height(); ++row) {
+            run.at(static_cast<double>(row) / static_cast<double>(dem_.height()), "contours");
+            std::ranges::copy(dem_.row(row), heights.begin());
+            is_traced = GDAL_CG_FeedLine(tracer.get(), heights.data()) == CE_None;
+        }
+        tracer.reset(); // ends the lines that are still open
+        if (task.failure) {
+            std::rethrow_exception(task.failure);
+        }
+        driver_.check("io.contours");
+        refuse_if<IoError>(!is_traced, "io.contours", "io.contours failed");
+    }
+
+private:
+    struct Task {
+        Tracer const& tracer;
+        Take const& take;
+        std::exception_ptr failure;
+    };
+
+    static CPLErr add(double z, int count, double* columns, double* rows, void* task) {
+        auto& self = *static_cast<Task*>(task);
+        auto const size = static_cast<std::size_t>(count);
+        try {
+            self.take(z, [&] { return self.tracer.placed({columns, size}, {rows, size}); });
+            return CE_None;
+        } catch (...) {
+            self.failure = std::current_exception();
+            return CE_Failure;
+        }
+    }
+
+    std::vector<Vec2> placed(std::span<double const> columns, std::span<double const> rows) const {
+        std::vector<Vec2> line;
+        line.reserve(columns.size());
+        for (std::size_t i = 0; i < columns.size(); ++i) {
+            Vec2 const at{place_[0] + place_[1] * columns[i] + place_[2] * rows[i],
+                          place_[3] + place_[4] * columns[i] + place_[5] * rows[i]};
+            if (line.empty() || line.back() != at) {
+                line.push_back(at);
             }
         }
-        lines.push_back(std::move(line));
+        return line;
     }
-    driver.check("io.contours"); // a failed allocation also ends the loop
-    refuse_if<IoError>(static_cast<GIntBig>(lines.size()) != layer->GetFeatureCount(), "io.contours",
-                       "contours are missing: free memory");
-    return lines;
+
+    Raster<float> const& dem_;
+    double interval_m_;
+    Driver const& driver_;
+    Dataset source_;
+    std::array<double, 6> place_{}; ///< GDAL's six numbers from columns and rows to the grid's CRS
+};
+
+/// Lines simplified as they are traced. All as GDAL traces them would be as large as the DEM.
+struct SimplifiedLines {
+    std::vector<double> z;
+    std::vector<std::vector<Vec2>> lines;
+    std::vector<geometry::EndNodes> ends;
+    std::vector<bool> is_shorter; ///< than GDAL's
+
+    void add(double height, std::vector<Vec2> traced, double tolerance_m) {
+        std::vector<Vec2> few = geometry::simplify(traced, tolerance_m);
+        bool const is_closed = traced.front() == traced.back();
+        bool const keeps_all = is_closed && few.size() <= 3; // the smallest rings would be points
+        is_shorter.push_back(!keeps_all && few.size() != traced.size());
+        lines.push_back(keeps_all ? std::move(traced) : std::move(few));
+        lines.back().shrink_to_fit();
+        z.push_back(height);
+        std::size_t const node = 2 * ends.size();
+        ends.push_back({node, is_closed ? node : node + 1});
+    }
+
+    /// \return which of the shorter lines cross or touch themselves or others; empty: none does
+    std::vector<bool> crossing(Run const& run) const {
+        std::vector<bool> found(lines.size());
+        bool is_any = false;
+        for (geometry::Meeting const& meeting : geometry::meetings(lines, ends, run)) {
+            bool const closes_ring = meeting.line == meeting.other && meeting.segment == 0 &&
+                                     meeting.other_segment + 2 == lines[meeting.line].size() && !meeting.is_stretch() &&
+                                     meeting.at == lines[meeting.line].back();
+            for (std::size_t const i : {meeting.line, meeting.other}) {
+                found[i] = found[i] || (!closes_ring && is_shorter[i]);
+                is_any = is_any || found[i];
+            }
+        }
+        return is_any ? found : std::vector<bool>{};
+    }
+};
+
+/// Simplified contours. Those that would then cross themselves or others are few, and are traced once more.
+SimplifiedLines traced(Tracer const& tracer, double tolerance_m, Run const& run) {
+    SimplifiedLines made;
+    tracer.trace([&](double z, Tracer::Vertices const& vertices) { made.add(z, vertices(), tolerance_m); }, run);
+    for (std::vector<bool> again = made.crossing(run); !again.empty(); again = made.crossing(run)) {
+        std::size_t line = 0;
+        tracer.trace(
+            [&](double /*z*/, Tracer::Vertices const& vertices) {
+                if (again[line]) {
+                    made.lines[line] = vertices();
+                    made.is_shorter[line] = false;
+                }
+                ++line;
+            },
+            run);
+    }
+    return made;
 }
 
 } // namespace
@@ -157,8 +219,14 @@ std::vector<ContourLine> contours(Raster<float> const& dem, double interval_m, R
     constexpr double tolerance_cells = 0.1;
     double const tolerance_m = tolerance_cells * dem.grid().cell_m;
     require_few_levels(dem, interval_m);
-    std::vector<ContourLine> lines = simplified(drawn(dem, interval_m, run), tolerance_m, run);
-    std::erase_if(lines, [&](ContourLine const& line) { return is_dot(line.line, tolerance_m); });
+    Driver const driver;
+    SimplifiedLines made = traced(Tracer(dem, interval_m, driver), tolerance_m, run);
+    std::vector<ContourLine> lines;
+    for (std::size_t i = 0; i < made.lines.size(); ++i) {
+        if (!is_dot(made.lines[i], tolerance_m)) {
+            lines.push_back({made.z[i], std::move(made.lines[i])});
+        }
+    }
     return lines;
 }
 
