@@ -5,6 +5,7 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <malloc.h>
 #include <map>
 #include <mutex>
 #include <utility>
@@ -194,7 +195,7 @@ class SurfaceParts {
 public:
     explicit SurfaceParts(make::MakeResult const& made) : made_(made) {}
 
-    /// In metres, for the map.
+    /// In metres, for a map of all cells.
     std::vector<io::ContourLine> const& contours(Run const& run) {
         std::call_once(contours_made_,
                        [&] { contours_ = io::contours(made_.terrain.ground.dem, contour_interval_m(made_), run); });
@@ -213,6 +214,12 @@ private:
     std::vector<io::ContourLine> contours_;
     std::vector<Summit> summits_;
 };
+
+/// Whether a map shows each cell of the terrain, with its contours; else it has others.
+bool shows_each_cell(make::MakeResult const& t, draw::MapParams const& map) {
+    Raster<float> const& dem = t.terrain.ground.dem;
+    return dem.width() <= draw::columns_of_map(dem.grid(), map);
+}
 
 draw::Picture map_with(make::MakeResult const& t, SurfaceParts& parts, draw::MapParams map, Run const& run) {
     Raster<float> const& dem = t.terrain.ground.dem;
@@ -240,10 +247,12 @@ void write_contours(make::MakeResult const& t, SurfaceParts& parts, io::OutputFo
     auto const write = [&](std::vector<io::ContourLine> const& contours) {
         io::write_contours(contours, step, t.terrain.grid.crs, out.path("contours.gpkg"), unit, run);
     };
-    if (unit == HeightUnit::metre) {
-        write(parts.contours(run));
-    } else {
+    if (unit != HeightUnit::metre) {
         write(io::contours(make::in_unit(t.terrain.ground.dem, unit), step, run));
+    } else if (shows_each_cell(t, {})) {
+        write(parts.contours(run));
+    } else { // not kept for the map
+        write(io::contours(t.terrain.ground.dem, step, run));
     }
 }
 
@@ -269,6 +278,14 @@ draw::Picture profile_of(make::MakeResult const& t, std::string const& title) {
     draw::ProfileParams profile;
     profile.title = title;
     return draw::profile(t.terrain.rivers.network, t.terrain.rivers.orders, profile);
+}
+
+/// Gives the pages of small blocks that were released back to the system: between others they stay the process's, and
+/// lines (of growth, meanders, contours) are many small blocks.
+void return_small_blocks() {
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
 }
 
 /// Writes the folder of a terrain, each group of files beside the others and beside the work of the caller.
@@ -364,6 +381,7 @@ private:
         jobs_.add([stage, work = std::move(work), &time = times_.emplace_back()](Run const& run) {
             Stopwatch const stopwatch;
             work(run);
+            return_small_blocks();
             time = stopwatch.time_of(stage);
         });
     }
@@ -444,7 +462,9 @@ make::MakeResult make_folder(recipe::Recipe const& recipe, std::string const& fo
     make::MakeResult made;
     made.plan = recipe::resolve(recipe, run);
     made.planform = make::make_planform(made.plan, run);
+    return_small_blocks();
     made.terrain = make::make_terrain(made.plan, made.planform, run);
+    return_small_blocks();
     made.recipe = recipe_of(made.plan, made.terrain);
     FolderWriter writer(made, folder, existing, run);
     writer.begin();
