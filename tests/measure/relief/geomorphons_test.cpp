@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/measure/relief/geomorphons.hpp>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -11,6 +14,8 @@
 #include <support.hpp>
 
 #include <thalweg/core/cells.hpp>
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include "dems.hpp"
@@ -157,6 +162,60 @@ TEST(Geomorphons, AsLookedFromEachCell) {
             bool const inside = c.col >= s && c.row >= s && c.col < dem.width() - s && c.row < dem.height() - s;
             Form const wanted = inside && !std::isnan(dem[i]) ? form_of(look(dem, c, params)) : Form::none;
             RC_ASSERT(static_cast<int>(found.form[i]) == static_cast<int>(wanted));
+        }
+    }));
+}
+
+/// A cell's eight sights in doubles.
+Counts exact_look(Raster<float> const& dem, Cell at, GeomorphonParams const& params) {
+    double const angle = params.flat_deg * (portable::pi / 180.0);
+    Counts counts;
+    for (Cell const step : d8_steps) {
+        std::int64_t const squared = step.col * step.col + step.row * step.row;
+        double const level =
+            portable::sin(angle) / portable::cos(angle) * dem.grid().cell_m * std::sqrt(static_cast<double>(squared));
+        double up = -std::numeric_limits<double>::infinity();
+        double down = std::numeric_limits<double>::infinity();
+        for (std::int64_t n = params.skip_cells + 1; n * n * squared < params.search_cells * params.search_cells; ++n) {
+            auto const there = static_cast<double>(dem[Cell{at.col + n * step.col, at.row + n * step.row}]);
+            double const rise = (there - static_cast<double>(dem[at])) / static_cast<double>(n);
+            up = rise > up ? rise : up;
+            down = rise < down ? rise : down;
+        }
+        bool const seen = !std::isnan(dem[Cell{at.col + step.col, at.row + step.row}]);
+        if (seen && (std::fabs(up) > level || std::fabs(down) > level)) {
+            counts.rise += std::fabs(up) > std::fabs(down) ? 1 : 0;
+            counts.fall += std::fabs(down) > std::fabs(up) ? 1 : 0;
+        }
+    }
+    return counts;
+}
+
+// Sights are compared in floats; where these do not decide, as doubles do.
+TEST(Geomorphons, AsInDoublesWhereFloatsAreInDoubt) {
+    ASSERT_TRUE(rc::check("equal sights, sights at the threshold, and heights that floats lose", [] {
+        Grid grid = frame(*evenly<std::int64_t>(12, 40), 20);
+        GeomorphonParams params;
+        params.search_cells = *evenly<std::int64_t>(2, 6);
+        params.skip_cells = *evenly<std::int64_t>(0, params.search_cells - 1);
+        params.flat_deg = *rc::gen::element(1e-40, 1.0, 44.9);
+        double const level = std::tan(params.flat_deg * (std::numbers::pi / 180.0)) * grid.cell_m;
+        auto const unit = static_cast<float>(*rc::gen::element(1.0, 1e-42, 1e37, level));
+        auto const base = *rc::gen::element(0.0F, 1.0F, 16777216.0F);
+        Raster<float> dem(grid);
+        auto const seed = static_cast<std::uint64_t>(*evenly<int>(0, 1'000'000));
+        std::uint64_t draws = 0;
+        auto const below = [&](std::uint64_t n) { return random_word(seed, 1, draws++) % n; };
+        for (float& z : dem.values()) {
+            z = base + unit * (static_cast<float>(below(7)) - 3.0F);
+            z = below(60) == 0 ? std::array{hole, -1e38F, std::numeric_limits<float>::infinity()}[below(3)] : z;
+            z = below(4) == 0 ? std::nextafter(z, 0.0F) : z;
+        }
+        Geomorphons const found = geomorphons(dem, params);
+        for (std::int64_t i = 0; i < dem.cells(); ++i) {
+            if (found.form[i] != 0) {
+                RC_ASSERT(found.form[i] == static_cast<std::uint8_t>(form_of(exact_look(dem, grid.at(i), params))));
+            }
         }
     }));
 }

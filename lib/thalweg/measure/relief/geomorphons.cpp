@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 #include <span>
 #include <vector>
@@ -11,6 +14,7 @@
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/sums.hpp>
+#include <thalweg/core/run/lanes.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
 
@@ -58,68 +62,103 @@ std::array<Sight, 8> sights(GeomorphonParams const& params, double cell_m) {
     return all;
 }
 
-/// The lines of sight from one row of cells.
-class LineOfSightRow {
-public:
-    LineOfSightRow(Raster<float> const& dem, GeomorphonParams const& params)
-        : dem_(dem), first_(params.search_cells), beyond_(dem.width() - params.search_cells), skip_(params.skip_cells),
-          up_(dem.width()), down_(up_.size()), rise_(up_.size()), fall_(up_.size()) {}
+/// A line of sight as kernels take it, in the digits of floats.
+struct SightSteps {
+    std::int64_t next = 0;            ///< offset of its first cell
+    std::vector<std::int64_t> offset; ///< of those looked at
+    std::vector<float> per_step;      ///< [-] 1 / number of steps
+    float surely_steep = 0.0F;        ///< [m] per step
+    float surely_level = 0.0F;
+};
 
-    void look(std::int64_t row, std::array<Sight, 8> const& all, std::span<std::uint8_t> form) {
-        std::fill(rise_.begin(), rise_.end(), std::uint8_t{0});
-        std::fill(fall_.begin(), fall_.end(), std::uint8_t{0});
-        for (Sight const& sight : all) {
-            steepest(row, sight);
-            count(row, sight);
+// A slope in floats is within 2^-22 of itself: a difference and a quotient each round, and so does 1 / steps. What
+// differs by more is known; the rest, and what overflows, is computed anew in doubles.
+constexpr float clearly = 1.0F + 0x1p-20F;
+constexpr double smallest_level = 1e-30; // below, floats lose digits
+
+// One count holds three, each at most 8.
+constexpr std::int32_t one_fall = 1 << 4;
+constexpr std::int32_t one_unsure = 1 << 8;
+
+std::vector<SightSteps> steps_of(std::array<Sight, 8> const& all, std::int64_t skip, std::int64_t width) {
+    std::vector<SightSteps> found(all.size());
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        Sight const& sight = all[k];
+        found[k].next = sight.step.row * width + sight.step.col;
+        for (std::int64_t n = skip + 1; n <= sight.cells; ++n) {
+            found[k].offset.push_back(n * found[k].next);
+            found[k].per_step.push_back(1.0F / static_cast<float>(n));
         }
+        if (sight.level > smallest_level) {
+            found[k].surely_steep = static_cast<float>(sight.level) * clearly;
+            found[k].surely_level = static_cast<float>(sight.level) * (2.0F - clearly);
+        } else {
+            found[k].surely_steep = std::numeric_limits<float>::infinity();
+        }
+    }
+    return found;
+}
+
+#define THALWEG_KERNELS <thalweg/measure/relief/internal/sight_lanes.inc>
+#include <thalweg/core/run/lanes.inc>
+
+/// The lines of sight from rows of cells.
+class Lookout {
+public:
+    Lookout(Raster<float> const& dem, GeomorphonParams const& params)
+        : dem_(dem), params_(params), all_(sights(params, dem.grid().cell_m)),
+          steps_(steps_of(all_, params.skip_cells, dem.width())),
+          count_sights_(widest_lanes() == Lanes::avx2 ? &avx2::count_sights : &plain::count_sights) {}
+
+    /// \param counts room for a row
+    void look(std::int64_t row, std::vector<std::int32_t>& counts, std::span<std::uint8_t> form) const {
+        std::int64_t const first = params_.search_cells;
+        std::int64_t const beyond = dem_.width() - params_.search_cells;
         float const* const here = dem_.row(row).data();
-        std::uint8_t* const out = form.data();
-        for (std::int64_t c = first_; c < beyond_; ++c) {
-            out[c] = std::isnan(here[c]) ? std::uint8_t{0} : static_cast<std::uint8_t>(forms[fall_[c]][rise_[c]]);
+        bool const is_wide = beyond - first >= 8;
+        if (is_wide) {
+            count_sights_(here + first, steps_, counts.data() + first, beyond - first);
+        }
+        for (std::int64_t c = first; c < beyond; ++c) {
+            if (std::isnan(here[c])) {
+                continue;
+            }
+            std::int32_t const known = is_wide && counts[c] < one_unsure ? counts[c] : exact_count({c, row});
+            form[c] = static_cast<std::uint8_t>(forms[known / one_fall][known % one_fall]);
         }
     }
 
 private:
-    /// Slopes in metres per step; the length of a step enters only the comparison with the flatness threshold, so that
-    /// equally steep lines of sight have equal numbers.
-    void steepest(std::int64_t row, Sight const& sight) {
+    /// As count_sights, without doubt. Slopes are in metres per step; the length of a step enters only the comparison
+    /// with the flatness threshold, so that equally steep lines of sight have equal numbers.
+    std::int32_t exact_count(Cell at) const {
         constexpr double unseen = std::numeric_limits<double>::infinity();
-        std::fill(up_.begin(), up_.end(), -unseen);
-        std::fill(down_.begin(), down_.end(), unseen);
-        float const* const here = dem_.row(row).data();
-        double* const up = up_.data();
-        double* const down = down_.data();
-        for (std::int64_t n = skip_ + 1; n <= sight.cells; ++n) {
-            float const* const there = dem_.row(row + n * sight.step.row).data();
-            std::int64_t const aside = n * sight.step.col;
-            auto const steps = static_cast<double>(n);
-            for (std::int64_t c = first_; c < beyond_; ++c) {
-                double const rise = (static_cast<double>(there[c + aside]) - static_cast<double>(here[c])) / steps;
-                up[c] = rise > up[c] ? rise : up[c]; // never towards NaN
-                down[c] = rise < down[c] ? rise : down[c];
+        auto const here = static_cast<double>(dem_[at]);
+        std::int32_t count = 0;
+        for (Sight const& sight : all_) {
+            double up = -unseen;
+            double down = unseen;
+            for (std::int64_t n = params_.skip_cells + 1; n <= sight.cells; ++n) {
+                Cell const there{at.col + n * sight.step.col, at.row + n * sight.step.row};
+                double const rise = (static_cast<double>(dem_[there]) - here) / static_cast<double>(n);
+                up = rise > up ? rise : up; // never towards NaN
+                down = rise < down ? rise : down;
+            }
+            up = std::fabs(up);
+            down = std::fabs(down);
+            Cell const next{at.col + sight.step.col, at.row + sight.step.row};
+            if (!std::isnan(dem_[next]) && (up > sight.level || down > sight.level)) {
+                count += (up > down ? 1 : 0) + (down > up ? one_fall : 0);
             }
         }
-    }
-
-    void count(std::int64_t row, Sight const& sight) {
-        float const* const next = dem_.row(row + sight.step.row).data() + sight.step.col;
-        for (std::int64_t c = first_; c < beyond_; ++c) {
-            double const up = std::fabs(up_[c]);
-            double const down = std::fabs(down_[c]);
-            bool const seen = !std::isnan(next[c]) && (up > sight.level || down > sight.level);
-            rise_[c] = static_cast<std::uint8_t>(rise_[c] + (seen && up > down ? 1 : 0));
-            fall_[c] = static_cast<std::uint8_t>(fall_[c] + (seen && down > up ? 1 : 0));
-        }
+        return count;
     }
 
     Raster<float> const& dem_;
-    std::int64_t first_;
-    std::int64_t beyond_;
-    std::int64_t skip_;
-    std::vector<double> up_;
-    std::vector<double> down_;
-    std::vector<std::uint8_t> rise_;
-    std::vector<std::uint8_t> fall_;
+    GeomorphonParams const& params_;
+    std::array<Sight, 8> all_;
+    std::vector<SightSteps> steps_;
+    void (*count_sights_)(float const*, std::vector<SightSteps> const&, std::int32_t*, std::int64_t);
 };
 
 void check(GeomorphonParams const& params, Grid const& grid) {
@@ -149,12 +188,12 @@ Geomorphons geomorphons(Raster<float> const& dem, GeomorphonParams const& params
     if (rows <= 0 || dem.width() <= 2 * params.search_cells) {
         return found;
     }
-    auto const all = sights(params, dem.grid().cell_m);
+    Lookout const lookout(dem, params);
     parallel_ranges(run, rows, rows_a_range, [&](std::int64_t begin, std::int64_t end) {
-        LineOfSightRow lookers(dem, params);
+        std::vector<std::int32_t> counts(dem.width());
         for (std::int64_t r = begin + params.search_cells; r < end + params.search_cells; ++r) {
             run.check();
-            lookers.look(r, all, found.form.row(r));
+            lookout.look(r, counts, found.form.row(r));
         }
     });
     std::int64_t formed = 0;
