@@ -16,6 +16,7 @@
 #include <thalweg/core/height_unit.hpp>
 #include <thalweg/core/lattice.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/numbers/elementary_rows.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/numbers/ranks.hpp>
 #include <thalweg/core/numbers/sums.hpp>

@@ -9,10 +9,13 @@
 #include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include <thalweg/core/numbers/elementary_rows.hpp>
 #include <thalweg/core/numbers/random.hpp>
+#include <thalweg/core/run/lanes.hpp>
 
 namespace elementary_test {
 
@@ -159,6 +162,25 @@ TEST(Elementary, sin_and_cos_are_within_two_units_of_the_last_place) {
     }
     EXPECT_LE(worst, 2.0);
     RecordProperty("worst_ulps", std::to_string(worst));
+}
+
+TEST(Elementary, atan2_row_has_the_bits_of_atan2) {
+    std::vector<double> y = {0.0, 5e-324, 1e-300, 1e300, 1.0, no_number, std::numeric_limits<double>::infinity()};
+    for (std::uint64_t i = 0; i < 100'000; ++i) {
+        y.push_back(portable::exp(between(-3.0, 3.0, 27, i)));
+        y.push_back(static_cast<double>(i % 1000) / 16.0);
+    }
+    using thalweg::Lanes;
+    for (double const x : {1.0, 30.0, 5e-324, 1e-3, 1e300}) {
+        for (Lanes const lanes : {Lanes::plain, thalweg::widest_lanes()}) {
+            std::vector<double> angles(y.size());
+            portable::atan2_row(y, x, angles, lanes);
+            for (std::size_t i = 0; i < y.size(); ++i) {
+                double const wanted = portable::atan2(y[i], x);
+                ASSERT_TRUE(angles[i] == wanted || (std::isnan(angles[i]) && std::isnan(wanted))) << y[i] << " " << x;
+            }
+        }
+    }
 }
 
 TEST(Elementary, atan2_is_within_two_units_of_the_last_place) {

@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <limits>
 
+#include <thalweg/core/numbers/internal/arc_tangent.hpp>
+
 namespace thalweg::portable {
 
 namespace {
@@ -21,8 +23,6 @@ constexpr double ln2_hi = 0x1.62e42fefa3800p-1;
 constexpr double ln2_lo = 0x1.ef35793c76730p-45;
 constexpr std::array<double, 4> half_pi = {0x1.921fb54400000p+0, 0x1.0b4611a600000p-34, 0x1.3198a2e000000p-69,
                                            0x1.b839a252049c1p-104};
-constexpr double half_pi_hi = 0x1.921fb54442d18p+0;
-constexpr double half_pi_lo = 0x1.1a62633145c07p-54;
 constexpr double inverse_ln2 = 0x1.71547652b82fep+0;
 constexpr double two_over_pi = 0x1.45f306dc9c883p-1;
 constexpr double sqrt2 = 0x1.6a09e667f3bcdp+0;
@@ -177,22 +177,11 @@ ReducedAngle turn(double x) {
 
 /// atan q for q in [0, 1], from the nearest tabulated atan(i/8) and the series on |t| <= 1/16.
 DoubleDouble atan_of(double q) {
-    static constexpr std::array<DoubleDouble, 9> table = {{{0.0, 0.0},
-                                                           {0x1.fd5ba9aac2f6ep-4, -0x1.cd37686760c17p-59},
-                                                           {0x1.f5b75f92c80ddp-3, 0x1.8ab6e3cf7afbdp-57},
-                                                           {0x1.6f61941e4def1p-2, -0x1.c63aae6f6e918p-56},
-                                                           {0x1.dac670561bb4fp-2, 0x1.a2b7f222f65e2p-56},
-                                                           {0x1.1e00babdefeb4p-1, -0x1.928df287a668fp-58},
-                                                           {0x1.4978fa3269ee1p-1, 0x1.2419a87f2a458p-56},
-                                                           {0x1.700a7c5784634p-1, -0x1.8c34d25aadef6p-56},
-                                                           {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55}}};
-    static constexpr std::array<double, 7> terms = {-1.0 / 3.0,  1.0 / 5.0,  -1.0 / 7.0, 1.0 / 9.0,
-                                                    -1.0 / 11.0, 1.0 / 13.0, -1.0 / 15.0};
     double const step = std::floor(8.0 * q + 0.5);
     double const known = 0.125 * step;
     double const t = (q - known) / (1.0 + q * known);
-    DoubleDouble const angle = table[static_cast<std::size_t>(step)];
-    return sum(angle.hi, t + (t * (t * t) * polynomial(terms, t * t) + angle.lo));
+    auto const i = static_cast<std::size_t>(step);
+    return sum(arc_tangents_hi[i], t + (t * (t * t) * polynomial(arc_tangent_terms, t * t) + arc_tangents_lo[i]));
 }
 
 } // namespace

@@ -3,12 +3,17 @@
 #include <thalweg/measure/relief/slopes.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
+#include <limits>
 #include <vector>
 
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/numbers/elementary_rows.hpp>
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
@@ -53,33 +58,59 @@ bool within(Sector const& s, double shorter, double longer) {
     return shorter <= s.straight * longer || shorter >= s.diagonal * longer;
 }
 
-void add_row(Raster<float> const& dem, std::int64_t row, Sector const& wide, Sector const& narrow, Block& block) {
-    auto const north = dem.row(row - 1);
-    auto const here = dem.row(row);
-    auto const south = dem.row(row + 1);
-    double const per_metre = 1.0 / (8.0 * dem.grid().cell_m);
-    auto const z = [](std::span<float const> line, std::size_t c) { return static_cast<double>(line[c]); };
-    for (std::size_t c = 1; c + 1 < here.size(); ++c) {
-        double const west = z(north, c - 1) + 2.0 * z(here, c - 1) + z(south, c - 1);
-        double const east = z(north, c + 1) + 2.0 * z(here, c + 1) + z(south, c + 1);
-        double const up = z(north, c - 1) + 2.0 * z(north, c) + z(north, c + 1);
-        double const down = z(south, c - 1) + 2.0 * z(south, c) + z(south, c + 1);
-        double const dx = std::fabs(east - west) * per_metre;
-        double const dy = std::fabs(down - up) * per_metre;
-        double const tangent = std::sqrt(dx * dx + dy * dy);
-        if (std::isnan(tangent) || std::isnan(here[c])) {
-            continue;
+/// Slopes by Horn's formula of some cells of a row; those of a cell without data are NaN.
+struct SomeSlopes {
+    static constexpr std::size_t at_once = 256;
+    std::array<double, at_once> dx; ///< [-] magnitudes
+    std::array<double, at_once> dy;
+    std::array<double, at_once> tangent;
+    std::array<double, at_once> angle; ///< [rad]
+
+    /// Computes count cells from this one of the row; both neighbours of each are on the grid.
+    void compute(Raster<float> const& dem, std::int64_t row, std::size_t first, std::size_t count) {
+        float const* const north = dem.row(row - 1).data() + first;
+        float const* const here = dem.row(row).data() + first;
+        float const* const south = dem.row(row + 1).data() + first;
+        double const per_metre = 1.0 / (8.0 * dem.grid().cell_m);
+        auto const z = [](float const* line, std::size_t c) { return static_cast<double>(line[c]); };
+        for (std::size_t i = 0; i < count; ++i) {
+            double const west = z(north - 1, i) + 2.0 * z(here - 1, i) + z(south - 1, i);
+            double const east = z(north + 1, i) + 2.0 * z(here + 1, i) + z(south + 1, i);
+            double const up = z(north - 1, i) + 2.0 * z(north, i) + z(north + 1, i);
+            double const down = z(south - 1, i) + 2.0 * z(south, i) + z(south + 1, i);
+            dx[i] = std::fabs(east - west) * per_metre;
+            dy[i] = std::fabs(down - up) * per_metre;
+            double const steep = std::sqrt(dx[i] * dx[i] + dy[i] * dy[i]);
+            tangent[i] = std::isnan(here[i]) ? std::numeric_limits<double>::quiet_NaN() : steep;
         }
-        double const degrees = portable::atan2(tangent, 1.0) * (180.0 / portable::pi);
-        ++block.counts[std::min(static_cast<std::size_t>(degrees * classes_a_degree), classes - 1)];
-        block.degrees.add(degrees);
-        block.degrees_squared.add(degrees * degrees);
-        block.tangents.add(tangent);
-        block.tangents_squared.add(tangent * tangent);
-        if (tangent > 0.0) {
-            ++block.facing;
-            block.along += within(wide, std::min(dx, dy), std::max(dx, dy)) ? 1 : 0;
-            block.on += within(narrow, std::min(dx, dy), std::max(dx, dy)) ? 1 : 0;
+        portable::atan2_row({tangent.data(), count}, 1.0, angle);
+    }
+};
+
+void add_row(Raster<float> const& dem, std::int64_t row, Sector const& wide, Sector const& narrow, Block& block) {
+    SomeSlopes some;
+    auto const beyond = static_cast<std::size_t>(std::max<std::int64_t>(dem.width() - 1, 1));
+    for (std::size_t first = 1; first < beyond; first += SomeSlopes::at_once) {
+        std::size_t const count = std::min(SomeSlopes::at_once, beyond - first);
+        some.compute(dem, row, first, count);
+        for (std::size_t i = 0; i < count; ++i) {
+            double const tangent = some.tangent[i];
+            if (std::isnan(tangent)) {
+                continue;
+            }
+            double const degrees = some.angle[i] * (180.0 / portable::pi);
+            ++block.counts[std::min(static_cast<std::size_t>(degrees * classes_a_degree), classes - 1)];
+            block.degrees.add(degrees);
+            block.degrees_squared.add(degrees * degrees);
+            block.tangents.add(tangent);
+            block.tangents_squared.add(tangent * tangent);
+            if (tangent > 0.0) {
+                double const shorter = std::min(some.dx[i], some.dy[i]);
+                double const longer = std::max(some.dx[i], some.dy[i]);
+                ++block.facing;
+                block.along += within(wide, shorter, longer) ? 1 : 0;
+                block.on += within(narrow, shorter, longer) ? 1 : 0;
+            }
         }
     }
 }

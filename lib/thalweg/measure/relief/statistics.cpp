@@ -3,13 +3,16 @@
 #include <thalweg/measure/relief/statistics.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/numbers/elementary_rows.hpp>
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/refuse.hpp>
 
@@ -55,22 +58,49 @@ void add_heights(Raster<float> const& dem, std::int64_t row, double datum, RowSu
     }
 }
 
-void add_slopes(Raster<float> const& dem, std::int64_t row, RowSums& sums) {
+/// How much some cells of a row rise a cell [m], from this one on.
+/// \param north,south rows beside it, or of holes
+void gradients(float const* north, std::span<float const> row, float const* south, std::size_t first,
+               std::span<double> out) {
     constexpr float hole = std::numeric_limits<float>::quiet_NaN();
+    auto const set = [&](std::size_t c, float west, float east) {
+        double const dx = solver::central_difference(west, row[c], east);
+        double const dy = solver::central_difference(north[c], row[c], south[c]);
+        out[c - first] = std::sqrt(dx * dx + dy * dy);
+    };
+    std::size_t const beyond = first + out.size();
+    for (std::size_t c = std::max<std::size_t>(first, 1); c < std::min(beyond, row.size() - 1); ++c) {
+        set(c, row[c - 1], row[c + 1]);
+    }
+    if (first == 0) {
+        set(0, hole, row.size() > 1 ? row[1] : hole);
+    }
+    if (beyond == row.size()) {
+        set(beyond - 1, beyond > 1 ? row[beyond - 2] : hole, hole);
+    }
+}
+
+void add_slopes(Raster<float> const& dem, std::int64_t row, RowSums& sums) {
+    constexpr std::size_t at_once = 256;
     auto const here = dem.row(row);
-    auto const north = row > 0 ? dem.row(row - 1) : std::span<float const>{};
-    auto const south = row + 1 < dem.height() ? dem.row(row + 1) : std::span<float const>{};
-    for (std::size_t c = 0; c < here.size(); ++c) {
-        if (std::isnan(here[c])) {
-            continue;
+    bool const is_inside = row > 0 && row + 1 < dem.height();
+    std::vector<float> const holes(is_inside ? 0 : here.size(), std::numeric_limits<float>::quiet_NaN());
+    float const* const north = row > 0 ? dem.row(row - 1).data() : holes.data();
+    float const* const south = row + 1 < dem.height() ? dem.row(row + 1).data() : holes.data();
+    std::array<double, at_once> gradient{};
+    std::array<double, at_once> by_cell{};
+    std::array<double, at_once> by_metre{};
+    for (std::size_t first = 0; first < here.size(); first += at_once) {
+        std::span const some(gradient.data(), std::min(at_once, here.size() - first));
+        gradients(north, here, south, first, some);
+        portable::atan2_row(some, 1.0, by_cell);
+        portable::atan2_row(some, dem.grid().cell_m, by_metre);
+        for (std::size_t i = 0; i < some.size(); ++i) {
+            if (!std::isnan(here[first + i])) {
+                sums.slope_cells.add(by_cell[i]);
+                sums.slope_metres.add(by_metre[i]);
+            }
         }
-        double const dx =
-            solver::central_difference(c > 0 ? here[c - 1] : hole, here[c], c + 1 < here.size() ? here[c + 1] : hole);
-        double const dy =
-            solver::central_difference(north.empty() ? hole : north[c], here[c], south.empty() ? hole : south[c]);
-        double const gradient = std::sqrt(dx * dx + dy * dy);
-        sums.slope_cells.add(portable::atan2(gradient, 1.0));
-        sums.slope_metres.add(portable::atan2(gradient, dem.grid().cell_m));
     }
 }
 

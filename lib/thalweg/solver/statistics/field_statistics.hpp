@@ -41,10 +41,13 @@ namespace thalweg::solver {
 /// \return [m] per cell
 inline double central_difference(float before, float here, float after) {
     double const z = here;
-    if (std::isnan(before)) {
-        return std::isnan(after) ? 0.0 : after - z;
-    }
-    return std::isnan(after) ? z - before : (static_cast<double>(after) - before) / 2.0;
+    // All computed, then one chosen: loops over cells need no branch.
+    double const left = z - before;
+    double const right = after - z;
+    double const both = (static_cast<double>(after) - before) / 2.0;
+    double const without_left = std::isnan(after) ? 0.0 : right;
+    double const with_left = std::isnan(after) ? left : both;
+    return std::isnan(before) ? without_left : with_left;
 }
 
 /// Along rows (eastwards) or along columns (southwards).
