@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/core/numbers/elementary_rows.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include <thalweg/core/numbers/internal/arc_tangent.hpp>
 
