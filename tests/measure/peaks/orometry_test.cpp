@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -21,6 +22,7 @@ using namespace thalweg;
 using measure::isolation;
 using measure::orometry;
 using measure::Orometry;
+using measure::OrometryParams;
 using measure::Peak;
 using measure::prominent_peaks;
 
@@ -137,6 +139,25 @@ TEST(Orometry, CountsByArea) {
     EXPECT_THROW(orometry(dem, {.least_prominence_m = std::nan("")}), BadParameter);
     EXPECT_TRUE(std::isnan(orometry(Raster<float>{}).peaks_per_km2));
     EXPECT_TRUE(std::isnan(orometry(Raster<float>(frame(5, 5), 1.0F)).median_isolation_m));
+}
+
+// Blocks of cells and rings of cells find the same.
+TEST(Orometry, IsolationIsThatOfEachPeak) {
+    for (auto const& [width, height] : {std::pair<std::int64_t, std::int64_t>(150, 97), {16, 33}, {40, 3}}) {
+        Raster<float> dem = rough_dem(frame(width, height), 7);
+        dem[Cell{width / 2, 1}] = hole;
+        OrometryParams const params{.least_prominence_m = 0.0};
+        std::vector<double> far;
+        for (Peak const& peak : prominent_peaks(dem, 0.0)) {
+            if (double const found = isolation(dem, peak.cell); !std::isnan(found)) {
+                far.push_back(found);
+            }
+        }
+        std::sort(far.begin(), far.end());
+        ASSERT_FALSE(far.empty());
+        double const middle = 0.5 * (far[far.size() / 2] + far[(far.size() - 1) / 2]);
+        EXPECT_EQ(orometry(dem, params).median_isolation_m, middle);
+    }
 }
 
 } // namespace orometry_test

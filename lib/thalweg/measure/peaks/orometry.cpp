@@ -11,7 +11,9 @@
 #include <unordered_map>
 #include <vector>
 
+#include <thalweg/core/box_means.hpp>
 #include <thalweg/core/cells.hpp>
+#include <thalweg/core/run/lanes.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
 
@@ -34,37 +36,44 @@ bool is_higher(Raster<float> const& dem, std::int64_t a, std::int64_t b) {
 /// The cell itself and its neighbours in the order of their numbers, so that the first of equal heights wins.
 constexpr std::array<Cell, 9> square_of_nine = {
     {{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {0, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
-constexpr std::size_t itself = 4;
+constexpr std::int32_t itself = 4;
+
+/// By cell of a row, the highest of it and its neighbours in the row.
+struct HighestOfRow {
+    std::vector<float> z;
+    std::vector<std::int32_t> place; ///< 0: west, 1: itself, 2: east
+};
+
+#define THALWEG_KERNELS <thalweg/measure/peaks/internal/highest_lanes.inc>
+#include <thalweg/core/run/lanes.inc>
 
 /// By cell the place in square_of_nine of the highest cell.
 Raster<std::uint8_t> highest_around(Raster<float> const& dem, Run const& run) {
     Raster<std::uint8_t> found(dem.grid());
-    auto const width = static_cast<std::size_t>(dem.width());
-    constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
-    parallel_ranges(run, dem.height(), 16, [&](std::int64_t begin, std::int64_t end) {
-        std::vector<float> row(width + 2, nothing); // a cell beyond either end
-        std::vector<float> highest(width);
-        std::vector<std::int32_t> place(width);
-        for (std::int64_t r = begin; r < end; ++r) {
-            std::ranges::fill(highest, -std::numeric_limits<float>::infinity());
-            std::ranges::fill(place, static_cast<std::int32_t>(itself));
-            for (std::size_t k = 0; k < square_of_nine.size(); ++k) {
-                std::int64_t const there = r + square_of_nine[k].row;
-                if (there < 0 || there >= dem.height()) {
-                    continue;
-                }
-                if (k % 3 == 0) {
-                    std::ranges::copy(dem.row(there), row.begin() + 1);
-                }
-                float const* const z = row.data() + k % 3;
-                auto const number = static_cast<std::int32_t>(k);
-                for (std::size_t c = 0; c < width; ++c) {
-                    bool const wins = z[c] > highest[c]; // false for NaN
-                    highest[c] = wins ? z[c] : highest[c];
-                    place[c] = wins ? number : place[c];
-                }
+    bool const wide = widest_lanes() == Lanes::avx2;
+    auto* const of_three = wide ? &avx2::highest_of_three : &plain::highest_of_three;
+    auto* const of_rows = wide ? &avx2::highest_of_rows : &plain::highest_of_rows;
+    std::int64_t const width = dem.width();
+    parallel_ranges(run, dem.height(), 64, [&](std::int64_t begin, std::int64_t end) {
+        std::vector<float> padded(width + 2, std::numeric_limits<float>::quiet_NaN()); // a cell beyond either end
+        std::array<HighestOfRow, 3> rows;
+        for (HighestOfRow& row : rows) {
+            row = {std::vector<float>(width), std::vector<std::int32_t>(width)};
+        }
+        auto const take = [&](std::int64_t r, HighestOfRow& row) {
+            if (r < 0 || r >= dem.height()) {
+                std::ranges::fill(row.z, -std::numeric_limits<float>::infinity());
+                return;
             }
-            std::ranges::transform(place, found.row(r).begin(), [](int k) { return static_cast<std::uint8_t>(k); });
+            std::ranges::copy(dem.row(r), padded.begin() + 1);
+            of_three(padded.data(), row.z.data(), row.place.data(), width);
+        };
+        take(begin - 1, rows[0]);
+        take(begin, rows[1]);
+        for (std::int64_t r = begin; r < end; ++r) {
+            take(r + 1, rows[2]);
+            of_rows(rows[0], rows[1], rows[2], found.row(r).data(), width);
+            std::rotate(rows.begin(), rows.begin() + 1, rows.end());
         }
     });
     return found;
@@ -73,6 +82,8 @@ Raster<std::uint8_t> highest_around(Raster<float> const& dem, Run const& run) {
 Summits climb(Raster<float> const& dem, Run const& run) {
     Summits found{Raster<PeakIndex>(dem.grid(), no_peak), {}};
     Raster<std::uint8_t> const highest = highest_around(dem, run);
+    std::array<std::int64_t, square_of_nine.size()> step{};
+    std::ranges::transform(square_of_nine, step.begin(), [&](Cell c) { return c.row * dem.width() + c.col; });
     std::vector<std::int64_t> way;
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
         if (i % cells_between_checks == 0) {
@@ -84,14 +95,13 @@ Summits climb(Raster<float> const& dem, Run const& run) {
         way.clear();
         std::int64_t top = i;
         while (found.of[top] == no_peak) {
-            way.push_back(top);
-            std::size_t const next = highest[top];
-            if (next == itself) {
-                found.of[top] = static_cast<std::int32_t>(found.cell.size());
+            if (highest[top] == itself) {
+                found.of[top] = static_cast<PeakIndex>(found.cell.size());
                 found.cell.push_back(top);
                 break;
             }
-            top += square_of_nine[next].row * dem.width() + square_of_nine[next].col;
+            way.push_back(top);
+            top += step[highest[top]];
         }
         for (std::int64_t const cell : way) {
             found.of[cell] = found.of[top];
@@ -108,24 +118,36 @@ struct Saddle {
 };
 
 std::vector<Saddle> saddles(Raster<float> const& dem, Summits const& summits, Run const& run) {
-    constexpr std::array<Cell, 4> onwards = {{{1, 0}, {-1, 1}, {0, 1}, {1, 1}}}; // each pair of neighbours once
+    std::array<std::int64_t, 4> const onwards = {1, dem.width() - 1, dem.width(), dem.width() + 1}; // each pair once
     std::unordered_map<std::uint64_t, float> highest;
-    for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        if (i % cells_between_checks == 0) {
-            run.check();
+    auto const meet = [&](std::int64_t i, std::int64_t there) {
+        if (summits.of[i] == no_peak || summits.of[there] == no_peak || summits.of[there] == summits.of[i]) {
+            return;
         }
-        Cell const at = dem.grid().at(i);
-        for (Cell const step : onwards) {
-            Cell const there{at.col + step.col, at.row + step.row};
-            if (summits.of[i] == no_peak || !dem.grid().contains(there) || summits.of[there] == no_peak ||
-                summits.of[there] == summits.of[i]) {
-                continue;
+        auto const [a, b] = std::minmax(summits.of[i], summits.of[there]);
+        float const z = std::min(dem[i], dem[there]);
+        auto const pair = (static_cast<std::uint64_t>(a) << 32U) | static_cast<std::uint64_t>(b);
+        auto const [known, is_new] = highest.emplace(pair, z);
+        known->second = is_new ? z : std::max(known->second, z);
+    };
+    for (std::int64_t row = 0; row < dem.height(); ++row) {
+        run.check();
+        bool const is_last = row + 1 == dem.height();
+        for (std::int64_t col = 0; col < dem.width(); ++col) {
+            std::int64_t const i = row * dem.width() + col;
+            bool const has_east = col + 1 < dem.width();
+            if (has_east) {
+                meet(i, i + onwards[0]);
             }
-            auto const [a, b] = std::minmax(summits.of[i], summits.of[there]);
-            float const z = std::min(dem[i], dem[there]);
-            auto const pair = (static_cast<std::uint64_t>(a) << 32U) | static_cast<std::uint64_t>(b);
-            auto const [known, is_new] = highest.emplace(pair, z);
-            known->second = is_new ? z : std::max(known->second, z);
+            if (!is_last && col > 0) {
+                meet(i, i + onwards[1]);
+            }
+            if (!is_last) {
+                meet(i, i + onwards[2]);
+            }
+            if (!is_last && has_east) {
+                meet(i, i + onwards[3]);
+            }
         }
     }
     std::vector<Saddle> found;
@@ -178,14 +200,19 @@ private:
 
 /// The highest peak of each connected area gets its height above the lowest cell as prominence.
 void finish(Raster<float> const& dem, Summits const& summits, Joining& joining) {
-    std::vector<float> lowest(static_cast<std::int32_t>(summits.cell.size()), std::numeric_limits<float>::infinity());
+    auto const peaks = static_cast<PeakIndex>(summits.cell.size());
+    std::vector<float> lowest(summits.cell.size(), std::numeric_limits<float>::infinity()); // of a peak's own area
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
         if (summits.of[i] != no_peak) {
-            float& least = lowest[joining.highest_peak(summits.of[i])];
+            float& least = lowest[summits.of[i]];
             least = std::min(least, dem[i]);
         }
     }
-    for (PeakIndex p = 0; p < static_cast<std::int32_t>(summits.cell.size()); ++p) {
+    for (PeakIndex p = 0; p < peaks; ++p) {
+        float& least = lowest[joining.highest_peak(p)];
+        least = std::min(least, lowest[p]);
+    }
+    for (PeakIndex p = 0; p < peaks; ++p) {
         if (joining.highest_peak(p) == p) {
             joining.prominence(p) = static_cast<double>(dem[summits.cell[p]]) - static_cast<double>(lowest[p]);
         }
@@ -231,12 +258,80 @@ double median(std::vector<double> values) {
     return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
+/// Finds how far the nearest higher cell is, by the highest cells of blocks: few peaks have one beside them.
+class HigherGround {
+public:
+    HigherGround(Raster<float> const& dem, Run const& run) : dem_(dem), maxima_(block_maxima(dem, side, run)) {}
+
+    /// The least squared distance [cells^2] to a higher cell.
+    std::int64_t nearest(Cell at) const {
+        std::int64_t nearest = none_yet;
+        Cell const block{at.col / side, at.row / side};
+        std::int64_t const last =
+            std::max({block.col, block.row, maxima_.width() - 1 - block.col, maxima_.height() - 1 - block.row});
+        auto const look = [&](Cell there) {
+            if (maxima_.grid().contains(there) && maxima_[there] > dem_[at]) {
+                nearest = std::min(nearest, nearest_in(there, at, nearest));
+            }
+        };
+        look(block);
+        // The cells of a ring of blocks are no nearer than this.
+        auto const reach = [](std::int64_t ring) { return (ring - 1) * side + 1; };
+        for (std::int64_t ring = 1; ring <= last && (nearest == none_yet || reach(ring) * reach(ring) < nearest);
+             ++ring) {
+            for (std::int64_t k = -ring; k <= ring; ++k) {
+                look({block.col + k, block.row - ring});
+                look({block.col + k, block.row + ring});
+            }
+            for (std::int64_t k = 1 - ring; k < ring; ++k) {
+                look({block.col - ring, block.row + k});
+                look({block.col + ring, block.row + k});
+            }
+        }
+        return nearest;
+    }
+
+private:
+    static constexpr std::int64_t side = 16;
+
+    /// The same among the cells of a block; those that are not below a distance may be left out.
+    std::int64_t nearest_in(Cell block, Cell at, std::int64_t below) const {
+        std::int64_t const col = block.col * side;
+        std::int64_t const beyond = std::min(col + side, dem_.width());
+        std::int64_t const aside = at.col - std::clamp(at.col, col, beyond - 1);
+        std::int64_t nearest = none_yet;
+        for (std::int64_t r = block.row * side; r < std::min((block.row + 1) * side, dem_.height()); ++r) {
+            if ((at.row - r) * (at.row - r) + aside * aside >= std::min(nearest, below)) {
+                continue;
+            }
+            for (std::int64_t c = col; c < beyond; ++c) {
+                if (dem_[Cell{c, r}] > dem_[at]) {
+                    nearest = std::min(nearest, squared_cells(at, {c, r}));
+                }
+            }
+        }
+        return nearest;
+    }
+
+    Raster<float> const& dem_;
+    Raster<float> maxima_;
+};
+
+double in_metres(std::int64_t squared, Grid const& grid) {
+    return squared == none_yet ? std::numeric_limits<double>::quiet_NaN()
+                               : std::sqrt(static_cast<double>(squared)) * grid.cell_m;
+}
+
 std::vector<double> isolations(Raster<float> const& dem, std::vector<Peak> const& peaks, Run const& run) {
+    if (peaks.empty()) {
+        return {};
+    }
+    HigherGround const higher(dem, run);
     std::vector<double> found(peaks.size());
     parallel_ranges(run, static_cast<std::int64_t>(peaks.size()), 1, [&](std::int64_t begin, std::int64_t end) {
         for (auto p = static_cast<std::size_t>(begin); p < static_cast<std::size_t>(end); ++p) {
             run.check();
-            found[p] = isolation(dem, peaks[p].cell);
+            found[p] = in_metres(higher.nearest(dem.grid().at(peaks[p].cell)), dem.grid());
         }
     });
     std::erase_if(found, [](double far) { return std::isnan(far); });
@@ -273,8 +368,7 @@ double isolation(Raster<float> const& dem, std::int64_t cell) {
     for (std::int64_t ring = 1; ring <= last && (nearest == none_yet || ring * ring < nearest); ++ring) {
         nearest = std::min(nearest, nearest_of_ring(dem, at, ring));
     }
-    return nearest == none_yet ? std::numeric_limits<double>::quiet_NaN()
-                               : std::sqrt(static_cast<double>(nearest)) * dem.grid().cell_m;
+    return in_metres(nearest, dem.grid());
 }
 
 Orometry orometry(Raster<float> const& dem, OrometryParams const& params, Run const& run) {

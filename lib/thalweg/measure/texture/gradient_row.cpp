@@ -35,11 +35,4 @@ void GradientRow::compute(Raster<float> const& dem, std::int64_t row) {
     set(right, 2.0F * (here[right] - here[right - 1]));
 }
 
-void GradientRow::level() {
-    std::ranges::fill(x, 0.0F);
-    std::ranges::fill(y, 0.0F);
-    std::ranges::fill(known, std::uint8_t{0});
-    std::ranges::fill(slopes, std::uint8_t{0});
-}
-
 } // namespace thalweg::measure

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include <thalweg/core/cells.hpp>
@@ -109,7 +108,7 @@ std::int64_t pairs(std::uint8_t const* slopes, std::uint8_t const* there, std::s
 
 /// Sums over a row of cells, in one pass: six sums that do not wait for one another.
 /// \param below the rows that lie a lag further south
-ProductsByLag products_of(GradientRow const& row, std::array<GradientRow, texture_lags_m.size()> const& below,
+ProductsByLag products_of(GradientRow const& row, std::array<GradientRow const*, texture_lags_m.size()> const& below,
                           std::array<std::int64_t, texture_lags_m.size()> const& lags, std::size_t width) {
     static_assert(texture_lags_m.size() == 3);
     float const* const x = row.x.data();
@@ -124,14 +123,14 @@ ProductsByLag products_of(GradientRow const& row, std::array<GradientRow, textur
         along_row[0] += product(c, x + lags[0], y + lags[0]);
         along_row[1] += product(c, x + lags[1], y + lags[1]);
         along_row[2] += product(c, x + lags[2], y + lags[2]);
-        along_column[0] += product(c, below[0].x.data(), below[0].y.data());
-        along_column[1] += product(c, below[1].x.data(), below[1].y.data());
-        along_column[2] += product(c, below[2].x.data(), below[2].y.data());
+        along_column[0] += product(c, below[0]->x.data(), below[0]->y.data());
+        along_column[1] += product(c, below[1]->x.data(), below[1]->y.data());
+        along_column[2] += product(c, below[2]->x.data(), below[2]->y.data());
     }
     ProductsByLag sums;
     for (std::size_t lag = 0; lag < lags.size(); ++lag) {
         sums.along_rows[lag] = {along_row[lag], pairs(row.slopes.data(), row.slopes.data() + lags[lag], width)};
-        sums.along_columns[lag] = {along_column[lag], pairs(row.slopes.data(), below[lag].slopes.data(), width)};
+        sums.along_columns[lag] = {along_column[lag], pairs(row.slopes.data(), below[lag]->slopes.data(), width)};
     }
     return sums;
 }
@@ -145,21 +144,26 @@ std::array<double, texture_lags_m.size()> correlations(Raster<float> const& dem,
     }
     std::int64_t const longest = *std::ranges::max_element(lags);
     std::vector<ProductsByLag> rows(dem.height());
-    parallel_ranges(run, dem.height(), 16, [&](std::int64_t begin, std::int64_t end) {
-        GradientRow row(dem.width(), longest);
+    constexpr std::int64_t rows_a_range = 128; // much more than the longest lag: rows beyond are computed twice
+    parallel_ranges(run, dem.height(), rows_a_range, [&](std::int64_t begin, std::int64_t end) {
+        // The rows from r to that which lies the longest lag below it, each at its number modulo theirs.
+        std::vector<GradientRow> kept(longest + 1, GradientRow(dem.width(), longest));
         GradientRow const level(dem.width());
-        std::array<GradientRow, texture_lags_m.size()> below{level, level, level};
+        auto const at = [&](std::int64_t r) -> GradientRow& { return kept[r % std::ssize(kept)]; };
+        for (std::int64_t r = begin; r < std::min(begin + longest, dem.height()); ++r) {
+            at(r).compute(dem, r);
+        }
         for (std::int64_t r = begin; r < end; ++r) {
             run.check();
-            row.compute(dem, r);
-            for (std::size_t lag = 0; lag < lags.size(); ++lag) {
-                if (lags[lag] > 0 && r + lags[lag] < dem.height()) {
-                    below[lag].compute(dem, r + lags[lag]);
-                } else {
-                    below[lag].level();
-                }
+            if (r + longest < dem.height()) {
+                at(r + longest).compute(dem, r + longest);
             }
-            rows[r] = products_of(row, below, lags, static_cast<std::size_t>(dem.width()));
+            std::array<GradientRow const*, texture_lags_m.size()> below{};
+            for (std::size_t lag = 0; lag < lags.size(); ++lag) {
+                bool const is_known = lags[lag] > 0 && r + lags[lag] < dem.height();
+                below[lag] = is_known ? &at(r + lags[lag]) : &level;
+            }
+            rows[r] = products_of(at(r), below, lags, static_cast<std::size_t>(dem.width()));
         }
     });
     ProductsByLag sum;
@@ -181,6 +185,7 @@ public:
 
     std::int64_t width() const { return width_; }
     std::int64_t height() const { return height_; }
+    std::int64_t cells_wide() const { return dem_.width(); }
 
     /// Computes a row of blocks.
     void compute(std::int64_t row, GradientRow& gradients, Tensor* blocks) const {
@@ -189,11 +194,13 @@ public:
         for (std::int64_t r = row * side_; r < row * side_ + high; ++r) {
             gradients.compute(dem_, r);
             for (std::int64_t block = 0; block < width_; ++block) {
+                Tensor sum = blocks[block]; // apart from what it is read from
                 for (std::int64_t c = block * side_; c < std::min((block + 1) * side_, dem_.width()); ++c) {
                     auto const x = static_cast<double>(gradients.x[c]);
                     auto const y = static_cast<double>(gradients.y[c]);
-                    blocks[block] += Tensor{x * x, y * y, x * y, static_cast<double>(gradients.known[c])};
+                    sum += Tensor{x * x, y * y, x * y, static_cast<double>(gradients.known[c])};
                 }
+                blocks[block] = sum;
             }
         }
         for (std::int64_t block = 0; block < width_; ++block) {
@@ -209,46 +216,75 @@ private:
     std::int64_t height_;
 };
 
-/// Averages the rows [begin, end) of blocks in a Gaussian window, which is reflected at the edges, and calls
-/// visit(row, tensors) for each.
-template <class Visit>
-void smooth_rows(Blocks const& blocks, std::vector<double> const& half, std::int64_t begin, std::int64_t end,
-                 GradientRow& gradients, Run const& run, Visit visit) {
-    auto const reach = static_cast<std::int64_t>(half.size()) - 1;
-    std::int64_t const width = blocks.width();
-    std::int64_t const first = std::max<std::int64_t>(begin - reach, 0);
-    std::int64_t const beyond = std::min(end + reach, blocks.height());
-    std::vector<Tensor> band((beyond - first) * width);
-    for (std::int64_t row = first; row < beyond; ++row) {
-        run.check();
-        blocks.compute(row, gradients, band.data() + (row - first) * width);
-    }
-    std::vector<Tensor> along_columns(width);
-    std::vector<Tensor> smooth(width);
-    auto const weight = [&](std::int64_t k) { return half[k < 0 ? -k : k]; };
-    auto const add = [](Tensor& sum, Tensor part, double factor) {
-        part *= factor;
-        sum += part;
-    };
-    for (std::int64_t row = begin; row < end; ++row) {
-        run.check();
-        std::ranges::fill(along_columns, Tensor{});
-        for (std::int64_t k = -reach; k <= reach; ++k) {
-            Tensor const* const there = band.data() + (mirrored(row + k, blocks.height()) - first) * width;
-            for (std::int64_t c = 0; c < width; ++c) {
-                add(along_columns[c], there[c], weight(k));
+/// Some rows of blocks.
+class Band {
+public:
+    Band(Blocks const& blocks, std::int64_t first, std::int64_t beyond, Run const& run)
+        : blocks_(blocks), first_(first), tensors_((beyond - first) * blocks.width()) {
+        parallel_ranges(run, beyond - first, 16, [&](std::int64_t begin, std::int64_t end) {
+            GradientRow gradients(blocks.cells_wide());
+            for (std::int64_t row = begin; row < end; ++row) {
+                run.check();
+                blocks.compute(first + row, gradients, tensors_.data() + row * blocks.width());
             }
-        }
-        std::ranges::fill(smooth, Tensor{});
-        for (std::int64_t c = 0; c < width; ++c) {
-            for (std::int64_t k = -reach; k <= reach; ++k) {
-                bool const inside = c + k >= 0 && c + k < width;
-                add(smooth[c], along_columns[inside ? c + k : mirrored(c + k, width)], weight(k));
-            }
-        }
-        visit(row, std::as_const(smooth));
+        });
     }
-}
+
+    std::int64_t width() const { return blocks_.width(); }
+    /// \param row of the DEM's blocks, reflected at its edges
+    Tensor const* row(std::int64_t row) const {
+        return tensors_.data() + (mirrored(row, blocks_.height()) - first_) * width();
+    }
+
+private:
+    Blocks const& blocks_;
+    std::int64_t first_;
+    std::vector<Tensor> tensors_;
+};
+
+/// Averages rows of blocks in a Gaussian window, which is reflected at the edges.
+class Smoother {
+public:
+    Smoother(Band const& band, std::vector<double> const& half)
+        : band_(band), half_(half), reach_(std::ssize(half) - 1), along_columns_(band.width() + 2 * reach_),
+          smooth_(band.width()) {}
+
+    std::vector<Tensor> const& row(std::int64_t row) {
+        std::int64_t const width = band_.width();
+        Tensor* const middle = along_columns_.data() + reach_;
+        std::fill(middle, middle + width, Tensor{});
+        for (std::int64_t k = -reach_; k <= reach_; ++k) {
+            add(middle, band_.row(row + k), width, k);
+        }
+        for (std::int64_t c = -reach_; c < 0; ++c) {
+            middle[c] = middle[mirrored(c, width)];
+        }
+        for (std::int64_t c = width; c < width + reach_; ++c) {
+            middle[c] = middle[mirrored(c, width)];
+        }
+        std::ranges::fill(smooth_, Tensor{});
+        for (std::int64_t k = -reach_; k <= reach_; ++k) {
+            add(smooth_.data(), middle + k, width, k);
+        }
+        return smooth_;
+    }
+
+private:
+    void add(Tensor* sums, Tensor const* parts, std::int64_t count, std::int64_t k) const {
+        double const weight = half_[k < 0 ? -k : k];
+        for (std::int64_t c = 0; c < count; ++c) {
+            Tensor part = parts[c];
+            part *= weight;
+            sums[c] += part;
+        }
+    }
+
+    Band const& band_;
+    std::vector<double> const& half_;
+    std::int64_t reach_;
+    std::vector<Tensor> along_columns_; ///< and reach_ reflected ones on either side
+    std::vector<Tensor> smooth_;
+};
 
 double anisotropy(Raster<float> const& dem, double window_m, Run const& run) {
     double const window = window_m / dem.grid().cell_m; // cells
@@ -263,15 +299,20 @@ double anisotropy(Raster<float> const& dem, double window_m, Run const& run) {
         return centre >= border_windows * window && centre <= static_cast<double>(count) - border_windows * window;
     };
     std::vector<double> const half = half_of_window(window / cells);
+    std::int64_t const reach = std::ssize(half) - 1;
     constexpr std::int64_t rows_at_once = 512; // what is smooth lives no longer
     constexpr double none = -1.0;
     Products sum;
     for (std::int64_t from = 0; from < blocks.height(); from += rows_at_once) {
         std::int64_t const rows = std::min(rows_at_once, blocks.height() - from);
         std::vector<double> found(rows * blocks.width(), none);
-        parallel_ranges(run, rows, 64, [&](std::int64_t begin, std::int64_t end) {
-            GradientRow gradients(dem.width());
-            smooth_rows(blocks, half, from + begin, from + end, gradients, run, [&](std::int64_t row, auto const& of) {
+        Band const band(blocks, std::max<std::int64_t>(from - reach, 0), std::min(from + rows + reach, blocks.height()),
+                        run);
+        parallel_ranges(run, rows, 16, [&](std::int64_t begin, std::int64_t end) {
+            Smoother smoother(band, half);
+            for (std::int64_t row = from + begin; row < from + end; ++row) {
+                run.check();
+                std::vector<Tensor> const& of = smoother.row(row);
                 for (std::int64_t c = 0; c < blocks.width(); ++c) {
                     Tensor const& t = of[c];
                     if (t.weight > least_weight && t.xx + t.yy > 0.0 && inside(c, dem.width()) &&
@@ -280,7 +321,7 @@ double anisotropy(Raster<float> const& dem, double window_m, Run const& run) {
                             std::sqrt((t.xx - t.yy) * (t.xx - t.yy) + 4.0 * t.xy * t.xy) / (t.xx + t.yy);
                     }
                 }
-            });
+            }
         });
         for (double const share : found) {
             if (share != none) {

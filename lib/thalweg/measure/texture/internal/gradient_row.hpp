@@ -16,8 +16,6 @@ struct GradientRow {
         : x(static_cast<std::size_t>(width + beyond)), y(x.size()), known(x.size()), slopes(x.size()) {}
 
     void compute(Raster<float> const& dem, std::int64_t row);
-    /// Makes all cells level.
-    void level();
 
     std::vector<float> x; ///< with y a unit vector uphill; 0: level, or no gradient is known
     std::vector<float> y;
