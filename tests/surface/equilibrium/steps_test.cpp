@@ -503,6 +503,76 @@ TEST(FloodLand, EveryLandCellStandsAboveItsReceiver) {
     }));
 }
 
+/// flood_terrain() cell by cell, for land without banks and crests whose nodes lie at the centres of cells.
+void flood_cell_by_cell(TerrainLevel& level) {
+    constexpr std::size_t last_bucket = 65535;
+    constexpr std::int8_t unreached = -2;
+    float low = infinitely_high;
+    float high = -infinitely_high;
+    for (std::size_t i = 0; i < level.z.size(); ++i) {
+        if (level.type[i] != CellType::outside) {
+            low = std::min(low, level.z[i]);
+            high = std::max(high, level.z[i]);
+        }
+    }
+    std::vector<std::vector<std::size_t>> buckets(last_bucket + 1);
+    std::size_t lowest = 0;
+    auto const push = [&](std::size_t i) {
+        float const place = high > low ? (level.z[i] - low) * (static_cast<float>(last_bucket) / (high - low)) : 0.0F;
+        buckets[std::max(lowest, static_cast<std::size_t>(std::min(place, 65535.0F)))].push_back(i);
+    };
+    level.direction.assign(level.z.size(), no_direction);
+    for (std::size_t i = 0; i < level.z.size(); ++i) {
+        if (is_land(level.type[i])) {
+            level.direction[i] = unreached;
+        } else if (level.type[i] != CellType::outside) {
+            push(i);
+        }
+    }
+    for (; lowest <= last_bucket; ++lowest) {
+        while (!buckets[lowest].empty()) {
+            std::size_t const from = buckets[lowest].back();
+            buckets[lowest].pop_back();
+            each_beside(level, from, [&](std::size_t n, std::size_t k) {
+                if (level.direction[n] == unreached) {
+                    level.direction[n] = static_cast<std::int8_t>((k + 4) % 8);
+                    level.z[n] = std::max(level.z[n], level.z[from] + level.least * level.side * step_lengths[k]);
+                    push(n);
+                }
+            });
+        }
+    }
+    for (std::size_t i = 0; i < level.z.size(); ++i) {
+        if (level.direction[i] == unreached) {
+            level.direction[i] = no_direction;
+            level.type[i] = CellType::outside;
+            level.z[i] = infinitely_high;
+        }
+    }
+}
+
+// A high peak makes buckets so wide that cells come to the bucket from which others are being taken.
+TEST(FloodLand, IsTheFloodCellByCell) {
+    ASSERT_TRUE(rc::check("the same directions and heights", [] {
+        TerrainLevel level = *rc::gen::arbitrary<bool>().as("open") ? any_open_land() : any_flood_level();
+        for (std::size_t i = 0; i < level.type.size(); ++i) {
+            level.type[i] = is_land(level.type[i]) ? CellType::land : level.type[i];
+            level.z[i] = level.type[i] == CellType::boundary ? static_cast<float>(i % 7) : level.z[i];
+        }
+        level.rivers.direction.assign(level.rivers.cell.size(), no_direction);
+        auto const peak = *rc::gen::inRange<std::size_t>(0, level.z.size()).as("peak");
+        if (is_land(level.type[peak])) {
+            level.z[peak] = *rc::gen::element(10.0F, 1000.0F, 100000.0F).as("height");
+        }
+        TerrainLevel expected = level;
+        flood_terrain(level);
+        flood_cell_by_cell(expected);
+        RC_ASSERT(level.direction == expected.direction);
+        RC_ASSERT(level.z == expected.z);
+        RC_ASSERT(level.type == expected.type);
+    }));
+}
+
 // Heights in one bucket are taken in any order: that may raise a cell by the height of a bucket for each step. And a
 // cell is settled by the first one that reaches it, across a corner though the next one would reach it across a side.
 TEST(FloodLand, RaisesHardlyMoreThanTheLeast) {

@@ -234,17 +234,22 @@ void set_banks(TerrainLevel& level) {
     }
 }
 
+constexpr std::int64_t bytes_in_block = 32;
+
+std::uint8_t random_byte(std::array<std::uint64_t, 4> const& words, std::int64_t k) {
+    return static_cast<std::uint8_t>(words[static_cast<std::size_t>(k / 8)] >> (8 * (k % 8)));
+}
+
 // Calls visit(column, byte) with a random byte for each of `count` columns of a row of a level: thirty-two of them use
 // one block of random words.
 template <class Visit>
 void random_bytes(std::uint64_t seed, std::uint64_t stage, std::int64_t row, float side, std::int64_t count,
                   Visit visit) {
-    for (std::int64_t first = 0; first < count; first += 32) {
+    for (std::int64_t first = 0; first < count; first += bytes_in_block) {
         auto const words = random_block(seed, stage, static_cast<std::uint64_t>(row), static_cast<std::uint64_t>(first),
                                         static_cast<std::uint64_t>(side));
-        for (std::int64_t col = first; col < std::min(first + 32, count); ++col) {
-            auto const k = static_cast<std::size_t>(col - first);
-            visit(col, static_cast<std::uint8_t>(words[k / 8] >> (8 * (k % 8))));
+        for (std::int64_t col = first; col < std::min(first + bytes_in_block, count); ++col) {
+            visit(col, random_byte(words, col - first));
         }
     }
 }
@@ -558,6 +563,14 @@ void set_cell_types(TerrainLevel& level, Mask const& land, Edge edge, RiverBanks
 void jitter_codes(TerrainLevel const& level, std::int64_t row, std::uint8_t* codes) {
     random_bytes(level.jitter.value_or(0), jitter_stage, row, level.side, level.width,
                  [&](std::int64_t col, std::uint8_t byte) { codes[col] = byte % (jitter_places * jitter_places); });
+}
+
+std::uint8_t jitter_code(TerrainLevel const& level, std::size_t cell) {
+    Cell const c = level.at(cell);
+    auto const words = random_block(level.jitter.value_or(0), jitter_stage, static_cast<std::uint64_t>(c.row),
+                                    static_cast<std::uint64_t>(c.col - c.col % bytes_in_block),
+                                    static_cast<std::uint64_t>(level.side));
+    return random_byte(words, c.col % bytes_in_block) % (jitter_places * jitter_places);
 }
 
 void start_from_nothing(TerrainLevel& level, NearestRiver const& near, std::uint64_t seed, Run const& run) {

@@ -76,6 +76,7 @@ inline constexpr int jitter_cell = 10; ///< distances of two places in a cell's 
 
 /// Places the nodes of a level's row at random, the frame's included.
 void jitter_codes(TerrainLevel const& level, std::int64_t row, std::uint8_t* codes);
+std::uint8_t jitter_code(TerrainLevel const& level, std::size_t cell);
 
 /// What lies beyond an open boundary.
 enum class Beyond : std::uint8_t {
