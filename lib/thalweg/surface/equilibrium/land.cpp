@@ -316,6 +316,39 @@ private:
     std::vector<float> free_; ///< stiffness
 };
 
+/// Sets a cell from its receiver's new height.
+template <class FloorOf> class Sweep {
+public:
+    Sweep(TerrainLevel& level, std::array<float, 8> const& length, FloorOf floor_of)
+        : offsets_(level.offsets()), length_(length), z_(level.z.data()), share_(level.area.data()), rock_(level.rock),
+          direction_(level.direction.data()), least_(level.least), floor_of_(floor_of) {}
+
+    void operator()(std::size_t i) const {
+        auto const way = static_cast<std::size_t>(direction_[i]);
+        float const below = z_[moved(i, offsets_[way])];
+        z_[i] = floor_of_(i, relaxed(z_[i], std::bit_cast<float>(share_[i]), below, rock_.cap(i) * length_[way],
+                                     least_ * length_[way]));
+    }
+
+    /// Asks for what is read of a cell.
+    void fetch(std::size_t i) const {
+        __builtin_prefetch(z_ + i, 1);
+        __builtin_prefetch(share_ + i);
+        __builtin_prefetch(direction_ + i);
+        rock_.fetch_cap(i);
+    }
+
+private:
+    std::array<std::int64_t, 8> offsets_;
+    std::array<float, 8> length_;
+    float* z_;
+    std::uint32_t const* share_; ///< bits of floats
+    Rock const& rock_;
+    std::int8_t const* direction_;
+    float least_;
+    FloorOf floor_of_;
+};
+
 } // namespace
 
 void set_steepest_receivers(TerrainLevel& level, Run const& run) {
@@ -382,21 +415,13 @@ void accumulate_areas(TerrainLevel& level, Run const& run, std::int64_t rows) {
 void relax_terrain(TerrainLevel& level, LandLaw const& law, Pull const& pull, Run const& run) {
     Relaxer const relaxer(level, law, pull);
     relaxer.prepare(run);
-    auto const sweep = [&](auto floor_of) {
-        each_upstream(level, CellType::rim, run,
-                      [&, offsets = level.offsets(), length = relaxer.length(), z = level.z.data(),
-                       share = level.area.data(), &rock = level.rock, direction = level.direction.data(),
-                       least = level.least](std::size_t i) {
-                          auto const way = static_cast<std::size_t>(direction[i]);
-                          float const below = z[moved(i, offsets[way])];
-                          z[i] = floor_of(i, relaxed(z[i], std::bit_cast<float>(share[i]), below,
-                                                     rock.cap(i) * length[way], least * length[way]));
-                      });
-    };
     if (pull.floor.empty()) {
-        sweep([](std::size_t, float at) { return at; });
+        each_upstream(level, CellType::rim, run,
+                      Sweep(level, relaxer.length(), [](std::size_t, float at) { return at; }));
     } else {
-        sweep([&](std::size_t i, float at) { return std::max(at, pull.floor[i]); });
+        each_upstream(level, CellType::rim, run, Sweep(level, relaxer.length(), [&](std::size_t i, float at) {
+                          return std::max(at, pull.floor[i]);
+                      }));
     }
 }
 

@@ -336,6 +336,10 @@ private:
     void follow(std::size_t count) {
         reserve(count);
         for (; count > 0; --count) {
+            if constexpr (requires { visit_.fetch(std::uint32_t{}); }) {
+                constexpr std::size_t ahead = 12; // cells that have been visited, or any, are worth no branch
+                visit_.fetch(open_[(first_ + ahead) & (open_.size() - 1)]);
+            }
             std::uint32_t const cell = open_[first_++ & (open_.size() - 1)];
             visit_(cell);
             list_donors(cell);
@@ -382,7 +386,8 @@ private:
     std::size_t last_ = 0;
 };
 
-/// Calls visit(cell) for land cells, each after its receiver, on all workers.
+/// Calls visit(cell) for land cells, each after its receiver, on all workers. Where visit has a fetch(cell), calls it
+/// some visits before, and for other cells.
 /// \param most of the types of land to visit; what drains to others is where to begin
 /// \param tile [cells] sides of the squares with which to begin: small, so that what drains to each mostly stays in the
 /// processor's cache

@@ -91,6 +91,8 @@ public:
         float const set = cap_.at(cell);
         return std::isnan(set) ? cap_of(root_[cell]) : set;
     }
+    /// Asks for what cap() reads.
+    void fetch_cap(std::size_t cell) const { __builtin_prefetch(&root_[cell]); }
     void set_erodibility(std::size_t cell, float value) { erodibility_.set(cell, value, root_.size()); }
     void set_cap(std::size_t cell, float value) { cap_.set(cell, value, root_.size()); }
 
