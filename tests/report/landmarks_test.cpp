@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/report/landmarks.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -29,6 +31,26 @@ Raster<float> cones(std::vector<std::pair<Cell, double>> const& tops, std::int64
 }
 
 } // namespace
+
+TEST(Landmarks, HeightRangeIsThatOfTheNumbers) {
+    constexpr float none = std::numeric_limits<float>::infinity();
+    for (std::int64_t width = 1; width < 70; ++width) {
+        Raster<float> dem(Grid{width, 1, 10.0, 1000.0, 2000.0, ""});
+        std::optional<std::pair<double, double>> wanted;
+        for (std::int64_t i = 0; i < width; ++i) {
+            std::int64_t const drawn = (i * 37 + width * 11) % 101;
+            dem[i] = drawn % 3 == 0
+                         ? std::numeric_limits<float>::quiet_NaN()
+                         : (drawn % 7 == 0 ? (drawn % 2 == 0 ? none : -none) : static_cast<float>(drawn - 50));
+            if (std::isfinite(dem[i])) {
+                auto const z = static_cast<double>(dem[i]);
+                wanted = wanted ? std::pair(std::min(wanted->first, z), std::max(wanted->second, z)) : std::pair(z, z);
+            }
+        }
+        EXPECT_EQ(report::height_range(dem), wanted) << width;
+    }
+    EXPECT_FALSE(report::height_range(Raster<float>()));
+}
 
 TEST(Landmarks, SummitsAreTheMostProminentWithRoomBetweenThem) {
     // The third stands too near to the second, the fourth is not prominent enough.

@@ -214,23 +214,29 @@ LocalExtremes local_extremes(Raster<float> const& dem, Run const& run) {
     return sum_rows(run, std::max<std::int64_t>(dem.height() - 2, 0), [&](std::int64_t r) {
         run.check();
         RowOfExtremes row;
-        std::int64_t const first = (r + 1) * dem.width();
-        for (std::int64_t i = first + 1; i < first + dem.width() - 1; ++i) {
-            int higher = 0;
-            int lower = 0;
-            bool whole = !std::isnan(dem[i]);
-            for (std::int64_t const step : offsets) {
-                float const z = dem[i + step];
-                higher += z > dem[i] ? 1 : 0;
-                lower += z < dem[i] ? 1 : 0;
-                whole = whole && !std::isnan(z);
+        float const* const here = dem.row(r + 1).data();
+        std::array<float const*, 8> around{};
+        std::ranges::transform(offsets, around.begin(), [&](std::int64_t step) { return here + step; });
+        std::int32_t cells = 0;
+        std::int32_t pits = 0;
+        std::int32_t peaks = 0;
+        for (std::int64_t c = 1; c < dem.width() - 1; ++c) {
+            float const z = here[c];
+            std::int32_t higher = 0;
+            std::int32_t lower = 0;
+            std::int32_t known = 0;
+            for (float const* const there : around) {
+                higher += there[c] > z ? 1 : 0;
+                lower += there[c] < z ? 1 : 0;
+                known += std::isunordered(there[c], z) ? 0 : 1;
             }
-            if (whole) {
-                ++row.cells;
-                row.pits += higher == 8 ? 1 : 0;
-                row.peaks += lower == 8 ? 1 : 0;
-            }
+            cells += known == 8 ? 1 : 0;
+            pits += higher == 8 ? 1 : 0;
+            peaks += lower == 8 ? 1 : 0;
         }
+        row.cells = cells;
+        row.pits = pits;
+        row.peaks = peaks;
         return row;
     });
 }
