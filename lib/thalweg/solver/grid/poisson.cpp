@@ -165,6 +165,17 @@ void require(GridProblem const& problem, ExplicitParams const& params) {
                         "the problem has a source; solve_poisson takes one");
 }
 
+/// Fixed cells of the value -0, which become +0 in x when steps of 0 are added.
+std::vector<CellIndex> fixed_minus_zeros(GridProblem const& problem) {
+    std::vector<CellIndex> cells;
+    for (CellIndex i = 0; i < problem.value.cells(); ++i) {
+        if (problem.value[i] == 0.0 && problem.kind[i] == fixed_cell && std::signbit(problem.value[i])) {
+            cells.push_back(i);
+        }
+    }
+    return cells;
+}
+
 /// A block of rows and its surrounding rows, before and after a sweep.
 struct Block {
     explicit Block(std::int64_t width)
@@ -289,6 +300,10 @@ void set_guess(GridProblem const& problem, Contents const& contents, ColouredPro
 void collect(ColouredProblem const& coloured, Contents const& contents, GridProblem& problem, Run const& run) {
     double const least = coloured.b == nullptr ? contents.least : std::numeric_limits<double>::lowest();
     double const greatest = coloured.b == nullptr ? contents.greatest : std::numeric_limits<double>::max();
+    bool const is_released = problem.value.cells() == 0;
+    if (is_released) {
+        problem.value = Raster<double>(problem.kind.grid());
+    }
     parallel_ranges(run, problem.kind.height(), 32, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t y = begin; y < end; ++y) {
             auto const kind = problem.kind.row(y);
@@ -296,7 +311,8 @@ void collect(ColouredProblem const& coloured, Contents const& contents, GridProb
             double const* const of[2] = {coloured.x.of[Board::first(y, 0)].row(y),
                                          coloured.x.of[1 - Board::first(y, 0)].row(y)};
             for (std::size_t i = 0; i < kind.size(); ++i) {
-                value[i] = kind[i] == free_cell ? std::clamp(of[i & 1][i / 2], least, greatest) : value[i];
+                double const x = of[i & 1][i / 2];
+                value[i] = kind[i] == free_cell ? std::clamp(x, least, greatest) : is_released ? x : value[i];
             }
         }
     });
@@ -346,8 +362,13 @@ GridSolution solve_poisson(GridProblem problem, PoissonParams const& params, Run
     if (contents.free > 0) {
         GridRows const& rows = grid_rows(widest_lanes());
         ColouredProblem iterate = coloured(problem, contents, run);
+        std::vector<CellIndex> minus_zeros;
         if (double const zero = residual_norm(iterate, rows, run); zero > 0.0) {
             set_guess(problem, contents, iterate, run);
+            if (contents.outside == 0) { // x has them all
+                minus_zeros = fixed_minus_zeros(problem);
+                problem.value = {};
+            }
             auto levels = coarse_levels(problem.kind, run);
             Convergence const reached =
                 conjugate_gradients(iterate, levels, zero, {params.tolerance, params.most_iterations}, rows, run);
@@ -355,6 +376,9 @@ GridSolution solve_poisson(GridProblem problem, PoissonParams const& params, Run
             solution.residual = reached.residual / zero;
         }
         collect(iterate, contents, problem, run);
+        for (CellIndex const cell : minus_zeros) {
+            problem.value[cell] = -0.0;
+        }
     }
     solution.value = std::move(problem.value);
     return solution;

@@ -209,7 +209,8 @@ ColouredProblem coloured(GridProblem const& problem, Contents const& contents, R
 void set_guess(GridProblem const& problem, Contents const& contents, ColouredProblem& coloured, Run const& run);
 
 /// Copies x into the problem's free cells; for Laplace's equation clamped between the least and the greatest value of
-/// `contents`.
+/// `contents`. Where the problem's values were released, as they may be without outside cells, the fixed ones come from
+/// x too.
 void collect(ColouredProblem const& coloured, Contents const& contents, GridProblem& problem, Run const& run);
 
 /// Calls term(row) for each row of a board.
