@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -299,7 +300,8 @@ public:
         for (std::size_t bits = 0; bits < ways_.size(); ++bits) {
             for (std::size_t k = 0; k < offsets.size(); ++k) {
                 if ((bits >> k & 1U) != 0) {
-                    ways_[bits].offset[ways_[bits].count++] = static_cast<std::int32_t>(offsets[k]);
+                    std::size_t const n = ways_[bits].count++;
+                    ways_[bits].offset[n / 4][n % 4] = static_cast<std::int32_t>(offsets[k]);
                 }
             }
         }
@@ -328,19 +330,20 @@ public:
     }
 
 private:
+    using Four [[gnu::vector_size(16)]] = std::int32_t;
     struct Ways {
-        std::uint32_t count = 0;
-        std::array<std::int32_t, 8> offset{};
+        std::array<Four, 2> offset{};
+        std::size_t count = 0;
     };
 
     void follow(std::size_t count) {
         reserve(count);
         for (; count > 0; --count) {
             if constexpr (requires { visit_.fetch(std::uint32_t{}); }) {
-                constexpr std::size_t ahead = 12; // cells that have been visited, or any, are worth no branch
-                visit_.fetch(open_[(first_ + ahead) & (open_.size() - 1)]);
+                constexpr std::size_t ahead = 12; // beyond the last: any cells
+                visit_.fetch(open_[first_ + ahead]);
             }
-            std::uint32_t const cell = open_[first_++ & (open_.size() - 1)];
+            std::uint32_t const cell = open_[first_++];
             visit_(cell);
             list_donors(cell);
         }
@@ -348,30 +351,28 @@ private:
 
     void list_donors(std::uint32_t cell) {
         Ways const& ways = ways_[donors_[cell]];
-        std::size_t const ring = open_.size() - 1;
-        auto const put = [&](std::size_t n) {
-            open_[(last_ + n) & ring] = static_cast<std::uint32_t>(static_cast<std::int32_t>(cell) + ways.offset[n]);
+        auto const put = [&](std::size_t half) { // no branch for each, which a processor could not foresee
+            Four const cells = ways.offset[half] + static_cast<std::int32_t>(cell);
+            std::memcpy(&open_[last_ + 4 * half], &cells, sizeof cells);
         };
-        put(0); // hardly a cell has more than two: no branch that a processor cannot foresee
-        put(1);
-        for (std::size_t n = 2; n < ways.count; ++n) {
-            put(n);
+        put(0);
+        if (ways.count > 4) {
+            put(1);
         }
         last_ += ways.count;
     }
 
-    /// Makes room for the donors of some cells.
+    /// Makes room for the donors of some cells, and for cells beyond the last.
     void reserve(std::size_t cells) {
         std::size_t const count = last_ - first_;
-        std::size_t const needed = count + 8 * cells + 2;
-        if (needed <= open_.size()) {
+        std::size_t const more = 8 * cells + 16;
+        if (last_ + more <= open_.size()) {
             return;
         }
-        std::vector<std::uint32_t> larger(std::bit_ceil(2 * needed));
-        for (std::size_t n = 0; n < count; ++n) {
-            larger[n] = open_[(first_ + n) & (open_.size() - 1)];
+        if (2 * (count + more) > open_.size()) {
+            open_.resize(4 * (count + more));
         }
-        open_ = std::move(larger);
+        std::copy(&open_[first_], &open_[last_], open_.data());
         first_ = 0;
         last_ = count;
     }
@@ -381,7 +382,7 @@ private:
     std::uint8_t const* donors_;
     Visit const& visit_;
     std::array<Ways, 256> ways_;                                            ///< to donors, by their bits
-    std::vector<std::uint32_t> open_ = std::vector<std::uint32_t>(1 << 14); ///< a ring of cells to visit
+    std::vector<std::uint32_t> open_ = std::vector<std::uint32_t>(1 << 14); ///< cells to visit, from first_ to last_
     std::size_t first_ = 0;
     std::size_t last_ = 0;
 };
