@@ -27,7 +27,10 @@ public:
             per_height_ = static_cast<float>(count - 1) / (high - low);
             height_ = (high - low) / static_cast<float>(count - 1);
         }
-        slots_.reserve(cells / (piece - 1) * piece + (count + 2) * piece); // pages that are never written cost nothing
+        constexpr std::size_t many = 1 << 20;
+        if (cells >= many) { // large pages; fewer cells would cost less than clearing them
+            slots_.reserve(cells / (piece - 1) * piece + (count + 2) * piece); // what is never written takes no memory
+        }
         slots_.resize(piece);
     }
 
