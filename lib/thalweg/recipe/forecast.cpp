@@ -23,21 +23,28 @@ std::int64_t cells_of_cluster(std::int64_t particles) {
     return std::max<std::int64_t>(1, std::llround(1.2 * radius * radius));
 }
 
-/// What the program takes before it has any cell [bytes], with its libraries.
-constexpr std::int64_t program_bytes = 84'000'000;
+/// What the program takes besides what grows with the grid [bytes]: itself, its libraries, and pictures.
+double bytes_besides(double cells) {
+    constexpr double program = 85e6;
+    constexpr double a_pixel = 8.0;
+    constexpr double most_pixels = 2e6; // of a map; it has a pixel a cell until then
+    return program + a_pixel * std::min(cells, most_pixels);
+}
 
 /// Peak memory [bytes] of the whole program: that of its largest stage.
 std::int64_t memory_of(Recipe const& recipe, RiverLines const& lines, std::int64_t cells) {
-    constexpr std::int64_t a_particle = 60;
+    constexpr double a_particle = 60.0;
     constexpr double a_cell_of_exact_detail = 120.0; // transforms on a torus of up to seven cells per cell
-    double a_cell = bytes_a_cell_of_files;
+    double a_cell = 0.0;
     for (Stage const* const one : stages_of(recipe, lines)) {
         a_cell = std::max(a_cell, one->bytes_a_cell);
     }
     bool const exact = levels_of(recipe) > 0 && recipe.detail->midpoint.stencil == fractal::Stencil::exact;
-    double const of_cells = static_cast<double>(cells) * std::max(a_cell, exact ? a_cell_of_exact_detail : 0.0);
-    std::int64_t const of_particles = from_cluster(recipe) ? recipe.network->dla.particles * a_particle : 0;
-    return program_bytes + std::max(static_cast<std::int64_t>(of_cells), of_particles);
+    auto const of = static_cast<double>(cells);
+    double const of_cells = of * std::max(a_cell, exact ? a_cell_of_exact_detail : 0.0);
+    double const of_particles =
+        from_cluster(recipe) ? a_particle * static_cast<double>(recipe.network->dla.particles) : 0.0;
+    return std::llround(bytes_besides(of) + std::max(of_cells, of_particles));
 }
 
 /// What a cluster takes besides its cells [s].

@@ -24,8 +24,9 @@ struct LinesCondition {
 struct Stage {
     char const* name;
     double seconds_a_million; ///< of cells, on one core of 2020; estimated
-    double bytes_a_cell;      ///< that the whole program takes at its peak here, with two threads; peak_mb of report.json
-    Condition when;           ///< on a recipe with its defaults
+    double bytes_a_cell; ///< that the whole program takes at its peak here, beside files of what is done; estimated
+                         ///< with two threads, from peak_mb of report.json
+    Condition when;      ///< on a recipe with its defaults
     LinesCondition lines = {};
 
     /// \param recipe with its defaults
@@ -47,9 +48,6 @@ extern Stage const carve, drain, valleys, measure, certify, ridges, areas, laws,
 
 /// All of them, in the order in which they run.
 std::span<Stage const* const> all_stages();
-
-/// What the program takes for each cell while it writes files, beside what lives until its end.
-inline constexpr double bytes_a_cell_of_files = 30;
 
 /// The stages that run, in order; blend once for each patch.
 /// \param recipe with its defaults
