@@ -12,7 +12,9 @@
 #include <rapidcheck.h>
 
 #include <thalweg/core/cells.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/run.hpp>
 
 #include "dems.hpp"
 
@@ -86,6 +88,28 @@ TEST(ProminentPeaks, AsFoundByFlooding) {
         }
         RC_ASSERT(next == found.size());
     }));
+}
+
+TEST(ProminentPeaks, AsFoundByFloodingOfManyRows) {
+    // Land that rises to the south, so that ascents lead through many rows, with humps and a lake.
+    Raster<float> dem(Grid{6, 300, 10.0, 0.0, 0.0, {}});
+    for (std::int64_t i = 0; i < dem.cells(); ++i) {
+        Cell const at = dem.grid().at(i);
+        auto const noise = static_cast<float>(random_word(5, static_cast<std::uint64_t>(i)) >> 58U);
+        dem[i] = static_cast<float>(at.row) + (at.row > 200 ? noise : at.row > 100 ? 0.02F * noise : 0.0F);
+        if (at.row > 125 && at.row < 131 && at.col > 0) {
+            dem[i] = std::numeric_limits<float>::quiet_NaN();
+        }
+    }
+    std::vector<Peak> const found = prominent_peaks(dem, 0.0);
+    ASSERT_GT(found.size(), 20U);
+    for (Peak const& peak : found) {
+        EXPECT_TRUE(is_peak(dem, peak.cell));
+        EXPECT_EQ(peak.prominence_m, prominence_by_flooding(dem, peak.cell));
+    }
+    thalweg::Run serial;
+    serial.threads = 1;
+    EXPECT_EQ(prominent_peaks(dem, 0.0, serial).size(), found.size());
 }
 
 TEST(ProminentPeaks, LeavesOutSmallOnes) {

@@ -7,8 +7,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <mutex>
 #include <tuple>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include <thalweg/core/box_means.hpp>
@@ -21,13 +23,6 @@ namespace thalweg::measure {
 namespace {
 
 using PeakIndex = std::int32_t;
-constexpr PeakIndex no_peak = -1;
-
-/// Maps each cell to the peak reached by ascending to the highest neighbour.
-struct Summits {
-    Raster<PeakIndex> of;
-    std::vector<std::int64_t> cell; ///< cell of a peak
-};
 
 bool is_higher(Raster<float> const& dem, std::int64_t a, std::int64_t b) {
     return dem[a] > dem[b] || (dem[a] == dem[b] && a < b);
@@ -79,37 +74,6 @@ Raster<std::uint8_t> highest_around(Raster<float> const& dem, Run const& run) {
     return found;
 }
 
-Summits climb(Raster<float> const& dem, Run const& run) {
-    Summits found{Raster<PeakIndex>(dem.grid(), no_peak), {}};
-    Raster<std::uint8_t> const highest = highest_around(dem, run);
-    std::array<std::int64_t, square_of_nine.size()> step{};
-    std::ranges::transform(square_of_nine, step.begin(), [&](Cell c) { return c.row * dem.width() + c.col; });
-    std::vector<std::int64_t> way;
-    for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        if (i % cells_between_checks == 0) {
-            run.check();
-        }
-        if (std::isnan(dem[i])) {
-            continue;
-        }
-        way.clear();
-        std::int64_t top = i;
-        while (found.of[top] == no_peak) {
-            if (highest[top] == itself) {
-                found.of[top] = static_cast<PeakIndex>(found.cell.size());
-                found.cell.push_back(top);
-                break;
-            }
-            way.push_back(top);
-            top += step[highest[top]];
-        }
-        for (std::int64_t const cell : way) {
-            found.of[cell] = found.of[top];
-        }
-    }
-    return found;
-}
-
 /// The highest saddle between the areas of two peaks.
 struct Saddle {
     float z;
@@ -117,45 +81,182 @@ struct Saddle {
     PeakIndex b;
 };
 
-std::vector<Saddle> saddles(Raster<float> const& dem, Summits const& summits, Run const& run) {
-    std::array<std::int64_t, 4> const onwards = {1, dem.width() - 1, dem.width(), dem.width() + 1}; // each pair once
-    std::unordered_map<std::uint64_t, float> highest;
-    auto const meet = [&](std::int64_t i, std::int64_t there) {
-        if (summits.of[i] == no_peak || summits.of[there] == no_peak || summits.of[there] == summits.of[i]) {
+/// The local maxima of a DEM. The area of a peak is all cells from which ascents to the highest neighbour reach it.
+struct Summits {
+    std::vector<std::int64_t> cell;   ///< of a peak, ascending
+    std::vector<float> lowest;        ///< of the area of a peak
+    std::vector<Saddle> saddles = {}; ///< from the highest down
+
+    PeakIndex at(std::int64_t top) const {
+        return static_cast<PeakIndex>(std::ranges::lower_bound(cell, top) - cell.begin());
+    }
+};
+
+Summits maxima(Raster<float> const& dem, Raster<std::uint8_t> const& highest) {
+    Summits found;
+    for (std::int64_t i = 0; i < dem.cells(); ++i) {
+        if (highest[i] == itself && !std::isnan(dem[i])) {
+            found.cell.push_back(i);
+        }
+    }
+    found.lowest.assign(found.cell.size(), std::numeric_limits<float>::infinity());
+    return found;
+}
+
+/// The peaks of the cells of a few rows. Of the whole DEM they would be four bytes a cell; the ascents that leave the
+/// rows are walked to their ends instead.
+class PeakRows {
+public:
+    using LocalPeak = std::int32_t; ///< a peak that cells of these rows ascend to, in the order they come
+    static constexpr LocalPeak none = -1;
+
+    PeakRows(Raster<float> const& dem, Raster<std::uint8_t> const& highest, Summits const& summits)
+        : dem_(dem), highest_(highest), summits_(summits) {
+        std::ranges::transform(square_of_nine, step_.begin(), [&](Cell c) { return c.row * dem.width() + c.col; });
+    }
+
+    /// Finds peaks, lowest cells and saddles of rows, and the saddles between the last and the one below it.
+    void take(std::int64_t first_row, std::int64_t beyond_row) {
+        begin_ = first_row * dem_.width();
+        peaks_.clear();
+        number_.clear();
+        saddles_.clear();
+        std::int64_t const end_row = std::min(beyond_row + 1, dem_.height());
+        of_.assign((end_row - first_row) * dem_.width(), none);
+        for (std::int64_t i = begin_; i < end_row * dem_.width(); ++i) {
+            if (!std::isnan(dem_[i])) {
+                ascend(i);
+            }
+        }
+        find_lowest((beyond_row - first_row) * dem_.width());
+        find_saddles(first_row, beyond_row);
+    }
+
+    /// Adds what was found to the whole; the order of bands makes no difference.
+    void add_to(std::vector<float>& lowest, std::unordered_map<std::uint64_t, float>& saddles) const {
+        for (LocalPeak p = 0; p < static_cast<LocalPeak>(peaks_.size()); ++p) {
+            lowest[peaks_[p]] = std::min(lowest[peaks_[p]], lowest_[p]);
+        }
+        for (auto const& [pair, z] : saddles_) {
+            auto const [a, b] = std::minmax(peaks_[pair >> 32U], peaks_[pair & 0xFFFFFFFFU]);
+            keep_higher(saddles, pair_of(a, b), z);
+        }
+    }
+
+    static std::uint64_t pair_of(std::int32_t a, std::int32_t b) {
+        return (static_cast<std::uint64_t>(a) << 32U) | static_cast<std::uint64_t>(b);
+    }
+
+private:
+    static void keep_higher(std::unordered_map<std::uint64_t, float>& saddles, std::uint64_t pair, float z) {
+        auto const [known, is_new] = saddles.emplace(pair, z);
+        known->second = is_new ? z : std::max(known->second, z);
+    }
+
+    void ascend(std::int64_t cell) {
+        way_.clear();
+        while (is_inside(cell) && of_[cell - begin_] == none && highest_[cell] != itself) {
+            way_.push_back(cell);
+            cell += step_[highest_[cell]];
+        }
+        LocalPeak const peak = is_inside(cell) && of_[cell - begin_] != none ? of_[cell - begin_] : top_of(cell);
+        for (std::int64_t const passed : way_) {
+            of_[passed - begin_] = peak;
+        }
+    }
+    bool is_inside(std::int64_t cell) const {
+        return cell >= begin_ && cell < begin_ + static_cast<std::int64_t>(of_.size());
+    }
+    LocalPeak top_of(std::int64_t cell) {
+        while (highest_[cell] != itself) {
+            cell += step_[highest_[cell]];
+        }
+        auto const [known, is_new] = number_.emplace(cell, static_cast<LocalPeak>(peaks_.size()));
+        if (is_new) {
+            peaks_.push_back(summits_.at(cell));
+        }
+        if (is_inside(cell)) {
+            of_[cell - begin_] = known->second;
+        }
+        return known->second;
+    }
+
+    void find_lowest(std::int64_t cells) {
+        lowest_.assign(peaks_.size(), std::numeric_limits<float>::infinity());
+        for (std::int64_t i = 0; i < cells; ++i) {
+            if (of_[i] != none) {
+                lowest_[of_[i]] = std::min(lowest_[of_[i]], dem_[begin_ + i]);
+            }
+        }
+    }
+
+    void find_saddles(std::int64_t first_row, std::int64_t beyond_row) {
+        std::array<std::int64_t, 4> const onwards = {1, dem_.width() - 1, dem_.width(),
+                                                     dem_.width() + 1}; // a pair once
+        for (std::int64_t row = first_row; row < beyond_row; ++row) {
+            bool const is_last = row + 1 == dem_.height();
+            for (std::int64_t col = 0; col < dem_.width(); ++col) {
+                std::int64_t const i = (row - first_row) * dem_.width() + col;
+                bool const has_east = col + 1 < dem_.width();
+                if (has_east) {
+                    meet(i, i + onwards[0]);
+                }
+                if (!is_last && col > 0) {
+                    meet(i, i + onwards[1]);
+                }
+                if (!is_last) {
+                    meet(i, i + onwards[2]);
+                }
+                if (!is_last && has_east) {
+                    meet(i, i + onwards[3]);
+                }
+            }
+        }
+    }
+    void meet(std::int64_t i, std::int64_t there) {
+        if (of_[i] == of_[there] || of_[i] == none || of_[there] == none) {
             return;
         }
-        auto const [a, b] = std::minmax(summits.of[i], summits.of[there]);
-        float const z = std::min(dem[i], dem[there]);
-        auto const pair = (static_cast<std::uint64_t>(a) << 32U) | static_cast<std::uint64_t>(b);
-        auto const [known, is_new] = highest.emplace(pair, z);
-        known->second = is_new ? z : std::max(known->second, z);
-    };
-    for (std::int64_t row = 0; row < dem.height(); ++row) {
-        run.check();
-        bool const is_last = row + 1 == dem.height();
-        for (std::int64_t col = 0; col < dem.width(); ++col) {
-            std::int64_t const i = row * dem.width() + col;
-            bool const has_east = col + 1 < dem.width();
-            if (has_east) {
-                meet(i, i + onwards[0]);
-            }
-            if (!is_last && col > 0) {
-                meet(i, i + onwards[1]);
-            }
-            if (!is_last) {
-                meet(i, i + onwards[2]);
-            }
-            if (!is_last && has_east) {
-                meet(i, i + onwards[3]);
-            }
+        auto const [a, b] = std::minmax(of_[i], of_[there]);
+        keep_higher(saddles_, pair_of(a, b), std::min(dem_[begin_ + i], dem_[begin_ + there]));
+    }
+
+    Raster<float> const& dem_;
+    Raster<std::uint8_t> const& highest_;
+    Summits const& summits_;
+    std::array<std::int64_t, square_of_nine.size()> step_{};
+    std::int64_t begin_ = 0;                             ///< the first cell of the rows
+    std::vector<LocalPeak> of_;                          ///< by cell of the rows
+    std::vector<PeakIndex> peaks_;                       ///< by local peak
+    std::vector<float> lowest_;                          ///< by local peak
+    std::unordered_map<std::int64_t, LocalPeak> number_; ///< of the peak at a cell
+    std::unordered_map<std::uint64_t, float> saddles_;   ///< by pair of local peaks
+    std::vector<std::int64_t> way_;
+};
+
+Summits summits_of(Raster<float> const& dem, Run const& run) {
+    constexpr std::int64_t band_rows = 64;
+    Raster<std::uint8_t> const highest = highest_around(dem, run);
+    Summits found = maxima(dem, highest);
+    std::vector<float> lowest = found.lowest;
+    std::unordered_map<std::uint64_t, float> saddles;
+    std::mutex mutex;
+    std::int64_t const bands = (dem.height() + band_rows - 1) / band_rows;
+    parallel_ranges(run, bands, 1, [&](std::int64_t begin, std::int64_t end) {
+        PeakRows band(dem, highest, found);
+        for (std::int64_t b = begin; b < end; ++b) {
+            run.check();
+            band.take(b * band_rows, std::min((b + 1) * band_rows, dem.height()));
+            std::scoped_lock const lock(mutex);
+            band.add_to(lowest, saddles);
         }
+    });
+    found.lowest = std::move(lowest);
+    found.saddles.reserve(saddles.size());
+    for (auto const& [pair, z] : saddles) {
+        found.saddles.push_back({z, static_cast<PeakIndex>(pair >> 32U), static_cast<PeakIndex>(pair & 0xFFFFFFFFU)});
     }
-    std::vector<Saddle> found;
-    found.reserve(highest.size());
-    for (auto const& [pair, z] : highest) {
-        found.push_back({z, static_cast<PeakIndex>(pair >> 32U), static_cast<PeakIndex>(pair & 0xFFFFFFFFU)});
-    }
-    std::sort(found.begin(), found.end(),
+    std::sort(found.saddles.begin(), found.saddles.end(),
               [](Saddle const& p, Saddle const& q) { return std::tie(q.z, p.a, p.b) < std::tie(p.z, q.a, q.b); });
     return found;
 }
@@ -201,16 +302,10 @@ private:
 /// The highest peak of each connected area gets its height above the lowest cell as prominence.
 void finish(Raster<float> const& dem, Summits const& summits, Joining& joining) {
     auto const peaks = static_cast<PeakIndex>(summits.cell.size());
-    std::vector<float> lowest(summits.cell.size(), std::numeric_limits<float>::infinity()); // of a peak's own area
-    for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        if (summits.of[i] != no_peak) {
-            float& least = lowest[summits.of[i]];
-            least = std::min(least, dem[i]);
-        }
-    }
+    std::vector<float> lowest = summits.lowest;
     for (PeakIndex p = 0; p < peaks; ++p) {
         float& least = lowest[joining.highest_peak(p)];
-        least = std::min(least, lowest[p]);
+        least = std::min(least, summits.lowest[p]);
     }
     for (PeakIndex p = 0; p < peaks; ++p) {
         if (joining.highest_peak(p) == p) {
@@ -342,9 +437,9 @@ std::vector<double> isolations(Raster<float> const& dem, std::vector<Peak> const
 
 std::vector<Peak> prominent_peaks(Raster<float> const& dem, double least_m, Run const& run) {
     require_in("measure.prominent_peaks", "least_m", least_m, Range::at_least(0.0));
-    Summits const summits = climb(dem, run);
+    Summits const summits = summits_of(dem, run);
     Joining joining(dem, summits.cell);
-    for (Saddle const& saddle : saddles(dem, summits, run)) {
+    for (Saddle const& saddle : summits.saddles) {
         joining.join(saddle);
     }
     finish(dem, summits, joining);
@@ -355,7 +450,6 @@ std::vector<Peak> prominent_peaks(Raster<float> const& dem, double least_m, Run 
             found.push_back({cell, static_cast<double>(dem[cell]), joining.prominence(p)});
         }
     }
-    std::sort(found.begin(), found.end(), [](Peak const& a, Peak const& b) { return a.cell < b.cell; });
     return found;
 }
 

@@ -18,8 +18,8 @@
 // nearer one.
 // Source: Argudo et al. 2019, for the metrics.
 // Cost: O(n + s log s) for s pairs of areas that touch; isolation O(r^2) for a distance of r cells,
-// O(n) for a peak that nothing exceeds. Memory about 5 bytes a cell and the saddles. Steps to the
-// highest neighbour and isolation run on all cores.
+// O(n) for a peak that nothing exceeds. Memory about one byte a cell and the saddles. Areas and
+// isolation run on all cores.
 // Not for: the prominence of peaks whose higher neighbour lies off the DEM: it is too large, and
 // peaks on the border are left out. White noise has a peak in every ninth cell: set
 // least_prominence_m.
