@@ -191,11 +191,10 @@ Raster<solver::Complex> transformed(Run const& run) {
 /// The rivers that a DEM draws by itself, and their laws.
 void print_laws(Raster<float> const& dem, Run const& run) {
     flow::FlowField const drainage = flow::route(dem, run);
-    Raster<float> const flow_length = flow::flow_lengths(drainage, run);
-    print("flow_lengths", hash_of(flow_length));
+    print("flow_lengths", hash_of(flow::flow_lengths(drainage, run)));
     print("extract_streams", hash_of(flow::extract_streams(drainage, dem, {.support_cells = 20}, run).network));
     Fnv fnv;
-    auto const found = make::laws_of_dem(dem, drainage, flow_length, {.network_m = 400.0 * dem.grid().cell_m}, run);
+    auto const found = make::laws_of_dem(dem, drainage, {.network_m = 400.0 * dem.grid().cell_m}, run);
     fnv.add(found.support_cells);
     for (make::LawRow const& row : make::law_rows(found.laws)) {
         fnv.add(row.value.value_or(0.0));

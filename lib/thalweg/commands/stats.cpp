@@ -89,8 +89,7 @@ StatsResult run_stats(StatsParams const& params, Run const& run) {
         Raster<float> const ground = make::on_ground(dem);
         flow::FlowField const drainage = flow::route(ground, run);
         if (params.laws) {
-            found.laws = make::laws_of_dem(ground, drainage, flow::flow_lengths(drainage, run),
-                                           {.support_cells = params.support_cells}, run);
+            found.laws = make::laws_of_dem(ground, drainage, {.support_cells = params.support_cells}, run);
         }
         if (params.relief) {
             found.relief = make::relief_of_dem(ground, drainage, run);

@@ -4,8 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <vector>
 
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/flow/paths.hpp>
 #include <thalweg/make/relief.hpp>
@@ -67,19 +71,86 @@ double area_of_outlets(StreamNetwork const& plan, flow::ContributingAreas const&
     return sum_m2;
 }
 
-/// flow_length: of the DEM under the network, or null.
-measure::NetworkLaws laws_of(ElevatedNetwork const& network, NetworkOrders const& orders,
-                             flow::ContributingAreas const& areas, Grid const& grid, std::int64_t land_cells,
-                             Raster<float> const* flow_length) {
-    measure::NetworkLawsParams params{.land_m2 = static_cast<double>(land_cells) * grid.cell_m * grid.cell_m,
-                                      .junction_reach_m = cells_of_junction * grid.cell_m};
-    params.side_branches = network::count_streams(network.planform).side;
-    if (flow_length != nullptr) {
-        for (NodeId n = 0; n < network.planform.node_count(); ++n) {
-            Cell const cell = grid.cell_of(network.planform.node(n).at);
-            params.head_m.push_back(grid.contains(cell) ? static_cast<double>((*flow_length)[cell]) : 0.0);
+/// The longest D8 flow path to a cell from a divide, as flow::flow_lengths has it; that raster would be four bytes a
+/// cell, for a few heads of rivers. Each path is summed downstream, so that no bit differs.
+class PathsFromDivides {
+public:
+    explicit PathsFromDivides(flow::FlowField const& drainage)
+        : direction_(drainage.direction), straight_(static_cast<float>(drainage.grid().cell_m)),
+          diagonal_(static_cast<float>(drainage.grid().cell_m * std::sqrt(2.0))) {}
+
+    /// \return [m]
+    float longest_to(Cell cell) {
+        visits_.assign(1, {cell});
+        while (true) {
+            Visit& visit = visits_.back();
+            if (to_next_donor(visit)) {
+                Cell const step = d8_steps[visit.way];
+                visits_.push_back({{visit.cell.col + step.col, visit.cell.row + step.row}});
+                continue;
+            }
+            float const longest = visit.longest;
+            visits_.pop_back();
+            if (visits_.empty()) {
+                return longest;
+            }
+            Visit& below = visits_.back();
+            bool const is_diagonal = flow::is_diagonal(flow::direction_of(below.way));
+            below.longest = std::max(below.longest, longest + (is_diagonal ? diagonal_ : straight_));
+            ++below.way;
         }
     }
+
+private:
+    struct Visit {
+        Cell cell;
+        std::size_t way = 0; ///< the neighbour whose donors are visited
+        float longest = 0.0F;
+    };
+
+    /// Moves on to the next neighbour whose water comes here; false: there is none.
+    bool to_next_donor(Visit& visit) const {
+        for (; visit.way < d8_steps.size(); ++visit.way) {
+            Cell const step = d8_steps[visit.way];
+            Cell const there{visit.cell.col + step.col, visit.cell.row + step.row};
+            if (direction_.grid().contains(there) &&
+                direction_[there] == flow::opposite(flow::direction_of(visit.way))) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    Raster<flow::Direction> const& direction_;
+    float straight_;
+    float diagonal_;
+    std::vector<Visit> visits_; ///< down to the cell asked for
+};
+
+/// [m] By node: the longest path from a divide to a source; 0 for the others and off the grid.
+std::vector<double> heads_m(StreamNetwork const& plan, flow::FlowField const& drainage, Run const& run) {
+    std::vector<double> found(plan.node_count());
+    parallel_ranges(run, static_cast<std::int64_t>(found.size()), 64, [&](std::int64_t begin, std::int64_t end) {
+        run.check();
+        PathsFromDivides paths(drainage);
+        for (auto n = static_cast<NodeId>(begin); n < static_cast<NodeId>(end); ++n) {
+            Cell const cell = drainage.grid().cell_of(plan.node(n).at);
+            if (plan.in(n).empty() && drainage.grid().contains(cell)) {
+                found[n] = static_cast<double>(paths.longest_to(cell));
+            }
+        }
+    });
+    return found;
+}
+
+/// head_m: as in measure::NetworkLawsParams.
+measure::NetworkLaws laws_of(ElevatedNetwork const& network, NetworkOrders const& orders,
+                             flow::ContributingAreas const& areas, Grid const& grid, std::int64_t land_cells,
+                             std::vector<double> head_m) {
+    measure::NetworkLawsParams params{.land_m2 = static_cast<double>(land_cells) * grid.cell_m * grid.cell_m,
+                                      .junction_reach_m = cells_of_junction * grid.cell_m,
+                                      .head_m = std::move(head_m)};
+    params.side_branches = network::count_streams(network.planform).side;
     return measure::network_laws(network, orders, areas, params);
 }
 
@@ -125,8 +196,8 @@ LawRow length_row(std::string_view key, std::string_view name, measure::LengthSp
 
 } // namespace
 
-DemLaws laws_of_dem(Raster<float> const& dem, flow::FlowField const& drainage, Raster<float> const& flow_length,
-                    DemLawsParams const& params, Run const& run) {
+DemLaws laws_of_dem(Raster<float> const& dem, flow::FlowField const& drainage, DemLawsParams const& params,
+                    Run const& run) {
     Grid const& grid = dem.grid();
     auto const ways = drainage.direction.values();
     auto const land =
@@ -139,42 +210,39 @@ DemLaws laws_of_dem(Raster<float> const& dem, flow::FlowField const& drainage, R
     found.support_m2 = static_cast<double>(found.support_cells) * grid.cell_m * grid.cell_m;
     flow::ExtractedStreams const streams =
         flow::extract_streams(drainage, dem, {.support_cells = found.support_cells}, run);
-    found.laws =
-        laws_of(streams.network, network::order(streams.network.planform), streams.areas, grid, land, &flow_length);
+    found.laws = laws_of(streams.network, network::order(streams.network.planform), streams.areas, grid, land,
+                         heads_m(streams.network.planform, drainage, run));
     flow::ExtractedStreams const inside = inside_of(streams, flow::cut_by_edge(drainage));
     StreamNetwork const& plan = inside.network.planform;
     found.arcs = static_cast<std::int64_t>(streams.network.planform.arc_count());
     found.arcs_inside = static_cast<std::int64_t>(plan.arc_count());
     if (found.arcs_inside > 0) {
-        found.inside =
-            laws_of(inside.network, network::order(plan), inside.areas, grid,
-                    std::llround(area_of_outlets(plan, inside.areas) / (grid.cell_m * grid.cell_m)), &flow_length);
+        found.inside = laws_of(inside.network, network::order(plan), inside.areas, grid,
+                               std::llround(area_of_outlets(plan, inside.areas) / (grid.cell_m * grid.cell_m)),
+                               heads_m(plan, drainage, run));
     }
     return found;
 }
 
 DemLaws laws_of_dem(Raster<float> const& dem, DemLawsParams const& params, Run const& run) {
     Raster<float> const ground = on_ground(dem);
-    flow::FlowField const drainage = flow::route(ground, run);
-    return laws_of_dem(ground, drainage, flow::flow_lengths(drainage, run), params, run);
+    return laws_of_dem(ground, flow::route(ground, run), params, run);
 }
 
 RiverLaws laws_of_terrain(Terrain const& terrain, std::int64_t land_cells, Run const& run) {
     RiverLaws found;
-    std::optional<Raster<float>> flow_length;
-    if (terrain.has_surface()) {
-        flow_length = flow::flow_lengths(terrain.water.drainage, run);
-    }
     Grid const& grid = terrain.grid;
     DemLawsParams params;
-    if (terrain.rivers.network.planform.arc_count() > 0) {
-        found.network = laws_of(terrain.rivers.network, terrain.rivers.orders, terrain.water.areas, grid, land_cells,
-                                flow_length ? &*flow_length : nullptr);
+    StreamNetwork const& plan = terrain.rivers.network.planform;
+    if (plan.arc_count() > 0) {
+        found.network =
+            laws_of(terrain.rivers.network, terrain.rivers.orders, terrain.water.areas, grid, land_cells,
+                    terrain.has_surface() ? heads_m(plan, terrain.water.drainage, run) : std::vector<double>{});
         params.network_m =
             found.network->drainage_density_m * static_cast<double>(land_cells) * grid.cell_m * grid.cell_m;
     }
     if (terrain.has_surface()) {
-        found.dem = laws_of_dem(terrain.ground.dem, terrain.water.drainage, *flow_length, params, run);
+        found.dem = laws_of_dem(terrain.ground.dem, terrain.water.drainage, params, run);
     }
     return found;
 }

@@ -76,11 +76,10 @@ struct DemLawsParams {
 /// are over ten cells.
 /// \param dem [m] by cell; NaN: no data
 /// \param drainage flow field of the DEM
-/// \param flow_length [m] by cell: longest flow path down to it
 /// \return laws and support
 /// \throws BadInput when the DEM has no data; as extract_streams
-DemLaws laws_of_dem(Raster<float> const& dem, flow::FlowField const& drainage, Raster<float> const& flow_length,
-                    DemLawsParams const& params = {}, Run const& run = {});
+DemLaws laws_of_dem(Raster<float> const& dem, flow::FlowField const& drainage, DemLawsParams const& params = {},
+                    Run const& run = {});
 
 /// Routes flow over a DEM and computes its laws; cells have their size on the ground (io::ground_cell), so that
 /// geographic DEMs are accepted.
