@@ -32,6 +32,7 @@
 #include <thalweg/core/run/peak_memory.hpp>
 #include <thalweg/core/run/result_cache.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/core/run/small_blocks.hpp>
 #include <thalweg/core/run/stage_log.hpp>
 #include <thalweg/core/same_grid.hpp>
 #include <thalweg/core/stream_network.hpp>

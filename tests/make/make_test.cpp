@@ -131,6 +131,8 @@ TEST(OutputFiles, AreThoseThatAreAskedFor) {
     Recipe recipe = recipe_of_text(rivers_of + surface + "[\"network\", \"dem\"]\n");
     MakeResult const made = make_folder(recipe, scratch / "two");
     EXPECT_FALSE(made.assessment.catchments);
+    EXPECT_EQ(made.terrain.water.drainage.area_cells.cells(), 0);
+    EXPECT_EQ(made.terrain.water.drainage.direction.cells(), made.terrain.grid.cells());
     EXPECT_FALSE(made.assessment.water_areas);
     EXPECT_EQ(files_in(scratch / "two"),
               (std::vector<std::string>{"dem.tif", "network.gpkg", "network.tif", "network_arcs.cpg",

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/append.hpp>
+#include <thalweg/core/run/small_blocks.hpp>
 #include <thalweg/make/file_values.hpp>
 #include <thalweg/make/internal/assess.hpp>
 #include <thalweg/make/river_claims.hpp>
@@ -128,8 +129,10 @@ SurfaceMeasures of_surface(recipe::Recipe const& recipe, Terrain const& terrain,
     }
     found.laws = stage_log.stage(recipe::stage::laws.name,
                                  [&] { return laws_of_terrain(terrain, found.statistics->cells, run); });
+    return_small_blocks(); // of the streams of the DEM
     found.relief = stage_log.stage(recipe::stage::relief.name,
                                    [&] { return relief_of_terrain(recipe, terrain, *found.statistics, run); });
+    return_small_blocks();
     warn_of_texture(recipe, terrain, *found.relief, stage_log);
     if (recipe::stage::catchments.runs(recipe)) {
         found.catchments = stage_log.stage(recipe::stage::catchments.name,

@@ -104,6 +104,7 @@ std::vector<std::string> write_terrain(make::MakeResult const& made, std::string
 
 /// Makes a terrain and writes all output of `make`, as make() and write_terrain() do; with more than one thread files
 /// are written while the terrain is assessed.
+/// \return as make(), without terrain.water.drainage.area_cells: no file has them
 /// \throws Error as make() and write_terrain()
 make::MakeResult make_folder(recipe::Recipe const& recipe, std::string const& folder,
                              io::Existing existing = io::Existing::refuse, Run const& run = {});

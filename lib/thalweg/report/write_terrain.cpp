@@ -5,7 +5,6 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
-#include <malloc.h>
 #include <map>
 #include <mutex>
 #include <utility>
@@ -16,6 +15,7 @@
 #include <thalweg/core/run/beside.hpp>
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/core/run/small_blocks.hpp>
 #include <thalweg/draw/comparison.hpp>
 #include <thalweg/draw/diagrams.hpp>
 #include <thalweg/draw/map.hpp>
@@ -280,14 +280,6 @@ draw::Picture profile_of(make::MakeResult const& t, std::string const& title) {
     return draw::profile(t.terrain.rivers.network, t.terrain.rivers.orders, profile);
 }
 
-/// Gives the pages of small blocks that were released back to the system: between others they stay the process's, and
-/// lines (of growth, meanders, contours) are many small blocks.
-void return_small_blocks() {
-#ifdef __GLIBC__
-    malloc_trim(0);
-#endif
-}
-
 /// Writes the folder of a terrain, each group of files beside the others and beside the work of the caller.
 class FolderWriter {
 public:
@@ -354,6 +346,10 @@ private:
     bool writes(recipe::OutputFiles files) const { return made_.recipe.output.has(files); }
 
     void begin_surface() {
+        // The longest first, and the one with the most memory: later the assessment has its catchments beside it.
+        if (writes(recipe::OutputFiles::contours)) {
+            add("write_contours", [this](Run const& run) { write_contours(made_, parts_, out_, run); });
+        }
         if (writes(recipe::OutputFiles::pictures)) {
             add("write_map", [this](Run const& run) {
                 draw::MapParams map;
@@ -363,9 +359,6 @@ private:
         }
         if (writes(recipe::OutputFiles::dem)) {
             add("write_dem", [this](Run const& run) { write_dem(made_, out_, run); });
-        }
-        if (writes(recipe::OutputFiles::contours)) {
-            add("write_contours", [this](Run const& run) { write_contours(made_, parts_, out_, run); });
         }
         if (writes(recipe::OutputFiles::pictures)) {
             if (!made_.terrain.ground.dilated().increments.empty()) {
@@ -469,6 +462,8 @@ make::MakeResult make_folder(recipe::Recipe const& recipe, std::string const& fo
     FolderWriter writer(made, folder, existing, run);
     writer.begin();
     made.assessment = make::assess(made.plan, made.planform, made.terrain, run);
+    made.terrain.water.drainage.area_cells = {};
+    return_small_blocks();
     writer.finish();
     return made;
 }

@@ -13,6 +13,8 @@
 #include <unistd.h>
 #include <vector>
 
+#include <thalweg/core/run/small_blocks.hpp>
+
 namespace thalweg {
 namespace {
 
@@ -89,6 +91,12 @@ void PeakMemory::note(std::int64_t now) noexcept {
 std::int64_t PeakMemory::bytes() const {
     note_memory_now();
     return most_.load(std::memory_order_relaxed);
+}
+
+void return_small_blocks() noexcept {
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
 }
 
 void return_large_blocks() noexcept {
