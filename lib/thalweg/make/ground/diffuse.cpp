@@ -33,6 +33,9 @@ Skeleton gathered_skeleton(recipe::Recipe const& recipe, Between const& between,
 Surface diffuse(GroundInput const& in, Run const& run) {
     StageLog stage_log(run);
     Between between = between_rivers(in, stage_log, run);
+    if (between.is_whole) {
+        between.inside = {}; // no mask: everywhere
+    }
     surface::DiffusedDem made = stage_log.stage(recipe::stage::fill.name, [&] {
         surface::DiffuseParams params = in.recipe.surface->diffuse;
         params.seed = in.recipe.seed;

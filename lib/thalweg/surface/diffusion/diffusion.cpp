@@ -30,14 +30,12 @@ CellKind kind_of(float z, bool inside) {
     return std::isnan(z) ? CellKind::free : CellKind::fixed;
 }
 
-// Converts a problem's values to heights [m]: fixed cells take the bits of z, free ones are rounded once, cells outside
-// are NaN. kind: solver::CellKind by cell; all three have one frame.
-Raster<float> heights_of(Raster<double> const& value, Raster<std::uint8_t> const& kind, Raster<float> const& z) {
-    Raster<float> heights(z.grid(), std::numeric_limits<float>::quiet_NaN());
+// Converts a problem's values to heights [m]: those of fixed cells, which were floats, keep their bits, free ones are
+// rounded once, cells outside are NaN. kind: solver::CellKind by cell.
+Raster<float> heights_of(Raster<double> const& value, Raster<std::uint8_t> const& kind) {
+    Raster<float> heights(kind.grid(), std::numeric_limits<float>::quiet_NaN());
     for (std::int64_t i = 0; i < heights.cells(); ++i) {
-        if (kind[i] == solver::fixed_cell) {
-            heights[i] = z[i];
-        } else if (kind[i] == solver::free_cell) {
+        if (kind[i] != solver::outside_cell) {
             heights[i] = static_cast<float>(value[i]);
         }
     }
@@ -140,12 +138,11 @@ void smooth(Raster<std::uint8_t> const& kind, DiffuseParams const& params, Raste
     value = solver::relax_explicit(std::move(problem), {0.25, sweeps_after_smoothing}, run).value;
 }
 
-void add_noise(Raster<std::uint8_t> const& kind, Raster<float> const& z, DiffuseParams const& params,
-               Raster<double>& value, Run const& run) {
+void add_noise(Raster<std::uint8_t> const& kind, DiffuseParams const& params, Raster<double>& value, Run const& run) {
     Grid const& grid = kind.grid();
     Mask skeleton(grid);
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
-        skeleton[i] = kind[i] == solver::fixed_cell && !std::isnan(z[i]) ? 1 : 0;
+        skeleton[i] = kind[i] == solver::fixed_cell ? 1 : 0;
     }
     Raster<std::int64_t> const nearest = nearest_cells(skeleton, run);
     parallel_ranges(run, grid.height, 16, [&](std::int64_t begin, std::int64_t end) {
@@ -237,20 +234,21 @@ void smooth_free(Raster<std::uint8_t> const& kind, double sigma_cells, Raster<do
     });
 }
 
-DiffusedDem diffuse(Skeleton const& skeleton, DiffuseParams const& params, Run const& run) {
-    return diffuse(skeleton, Mask(), params, run);
+DiffusedDem diffuse(Skeleton skeleton, DiffuseParams const& params, Run const& run) {
+    return diffuse(std::move(skeleton), Mask(), params, run);
 }
 
-DiffusedDem diffuse(Skeleton const& skeleton, Mask const& inside, DiffuseParams const& params, Run const& run) {
+DiffusedDem diffuse(Skeleton skeleton, Mask const& inside, DiffuseParams const& params, Run const& run) {
     require(params);
     auto problem = problem_through(skeleton.z, inside, "surface.diffuse", run);
+    skeleton.z = {}; // the problem has its heights
     Raster<std::uint8_t> const kind = problem.kind;
     solver::GridSolution solution = spread(std::move(problem), params, run);
     smooth(kind, params, solution.value, run);
     if (params.noise_m > 0.0) {
-        add_noise(kind, skeleton.z, params, solution.value, run);
+        add_noise(kind, params, solution.value, run);
     }
-    return {heights_of(solution.value, kind, skeleton.z), solution.iterations, solution.residual};
+    return {heights_of(solution.value, kind), solution.iterations, solution.residual};
 }
 
 Raster<float> harmonic(Valley const& valley, Run const& run) {
@@ -264,7 +262,7 @@ Raster<float> harmonic(Valley const& valley, Mask const& inside, Run const& run)
 Raster<float> harmonic(Valley const& valley, Mask const& inside, HarmonicParams const& params, Run const& run) {
     auto problem = problem_through(valley.z, inside, "surface.harmonic", run);
     Raster<std::uint8_t> const kind = problem.kind;
-    return heights_of(solver::solve_poisson(std::move(problem), {params.tolerance, 1000}, run).value, kind, valley.z);
+    return heights_of(solver::solve_poisson(std::move(problem), {params.tolerance, 1000}, run).value, kind);
 }
 
 } // namespace thalweg::surface

@@ -65,7 +65,7 @@ struct DiffusedDem {
 /// at isolated cells, 20 sweeps of diffusion then the seam beside the skeleton; noise is multiplied by 1 - exp(-d/4),
 /// d: distance to the skeleton [cells]. With `inside`, a mask in the skeleton's frame, no heat flows across cells of 0,
 /// and skeleton cells there do not count.
-/// \param skeleton [m] heights of rivers, ridges and points
+/// \param skeleton [m] heights of rivers, ridges and points; released before the solution takes its memory
 /// \return skeleton cells bit for bit; before noise all heights between its lowest and highest; NaN outside and in
 /// parts without skeleton cells
 /// \throws BadInput for no skeleton cell (inside), an infinite height, or a mask in another frame
@@ -73,9 +73,8 @@ struct DiffusedDem {
 /// \throws NotConverged when the solver does not reach the tolerance
 ///
 /// Source: \cite nenu2015, equations 12 and 13, the latter with its sign corrected.
-DiffusedDem diffuse(Skeleton const& skeleton, DiffuseParams const& params = {}, Run const& run = {});
-DiffusedDem diffuse(Skeleton const& skeleton, Mask const& inside, DiffuseParams const& params = {},
-                    Run const& run = {});
+DiffusedDem diffuse(Skeleton skeleton, DiffuseParams const& params = {}, Run const& run = {});
+DiffusedDem diffuse(Skeleton skeleton, Mask const& inside, DiffuseParams const& params = {}, Run const& run = {});
 
 /// Options of harmonic().
 struct HarmonicParams {
