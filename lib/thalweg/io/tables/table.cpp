@@ -313,6 +313,8 @@ void write_file(std::span<Table const> tables, std::string const& crs, std::stri
     CPLConfigOptionSetter const date(date_option, fixed_date, false);
     // What is written aside goes to the disk when it is whole, and not step by step.
     CPLConfigOptionSetter const unhurried("OGR_SQLITE_SYNCHRONOUS", "OFF", true);
+    // Nor has it a file of what to undo, made and removed for each table: a broken one is removed as a whole.
+    CPLConfigOptionSetter const without_journal("OGR_SQLITE_JOURNAL", "MEMORY", true);
     OGRSpatialReference reference = crs.empty() ? OGRSpatialReference() : read_reference(crs);
     refuse_if<BadInput>(format == LayerFormat::geojson && crs.empty(), about.where,
                         "{}: GeoJSON is in degrees (RFC 7946), and the network has no CRS to bring it there: assign "
