@@ -127,10 +127,14 @@ void add_missing(Mask const& inland, std::vector<Cell> const& coast, Mouths& mou
     for (Mouth const& mouth : mouths.all()) {
         take_piece(mouth.seed, left, run);
     }
+    std::int64_t cells_left = std::ranges::count_if(left.values(), [](std::uint8_t v) { return v != 0; });
     for (Cell const c : coast) {
+        if (cells_left == 0) { // as on most maps: the seed of each coast cell needs a search
+            break;
+        }
         std::optional<Cell> const seed = mouths.seed_for(c);
         if (seed && left[*seed] != 0 && mouths.add(c)) {
-            take_piece(*seed, left, run);
+            cells_left -= take_piece(*seed, left, run);
             notes.push_back(
                 finding("added_outlet", inland.grid(), c, 0.0, "an outlet was added for land without one, at cell"));
         }
