@@ -273,7 +273,9 @@ void draw_rivers(Cairo* canvas, MapSheet const& sheet, Window const& window, dou
         arcs.emplace_back(scale.largest_area_m2 > 0.0 ? known(sheet.areas_m2[a]) : sheet.orders->strahler[a], a);
     }
     std::stable_sort(arcs.begin(), arcs.end(), [](auto const& a, auto const& b) { return a.first < b.first; });
-    double const corner_px = 0.75 * whole_grid(sheet).cell_m * window.px_per_m;
+    // Curves within half a pixel look like corners, and large maps would have one for each of many vertices.
+    double const bend_px = 0.75 * whole_grid(sheet).cell_m * window.px_per_m;
+    double const corner_px = bend_px < 0.5 ? 0.0 : bend_px;
     cairo_set_line_cap(canvas, CAIRO_LINE_CAP_ROUND);
     for (auto const& [size, a] : arcs) {
         LineStyle const style = scale.largest_area_m2 > 0.0 ? style_of_area(size, scale, unit)
