@@ -95,6 +95,11 @@ template <class T, class Put> void each_mean(Raster<T> const& fine, Grid const& 
 
 constexpr double half = 0.5 - 1e-9;
 
+/// The higher of two values; NaN: both are.
+float higher(float a, float b) {
+    return a >= b || std::isnan(b) ? a : b;
+}
+
 } // namespace
 
 Grid coarser(Grid const& grid, std::int64_t columns) {
@@ -145,13 +150,21 @@ Raster<float> block_maxima(Raster<float> const& fine, std::int64_t side, Run con
     Raster<float> out(grid, std::numeric_limits<float>::quiet_NaN());
     constexpr std::int64_t grain = 16;
     parallel_ranges(run, grid.height, grain, [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t row = first * side; row < std::min(last * side, fine.height()); ++row) {
-            auto const from = fine.row(row);
-            auto const to = out.row(row / side);
-            for (std::int64_t col = 0; col < grid.width; ++col) {
-                for (std::int64_t c = col * side; c < std::min((col + 1) * side, fine.width()); ++c) {
-                    to[col] = to[col] >= from[c] || std::isnan(from[c]) ? to[col] : from[c];
+        std::vector<float> most(static_cast<std::size_t>(fine.width())); // of each column of cells, in a row of blocks
+        for (std::int64_t row = first; row < last; ++row) {
+            std::ranges::copy(fine.row(row * side), most.begin());
+            for (std::int64_t r = row * side + 1; r < std::min((row + 1) * side, fine.height()); ++r) {
+                auto const from = fine.row(r);
+                for (std::size_t c = 0; c < most.size(); ++c) {
+                    most[c] = higher(most[c], from[c]);
                 }
+            }
+            for (std::int64_t col = 0; col < grid.width; ++col) {
+                float highest = std::numeric_limits<float>::quiet_NaN();
+                for (std::int64_t c = col * side; c < std::min((col + 1) * side, fine.width()); ++c) {
+                    highest = higher(highest, most[static_cast<std::size_t>(c)]);
+                }
+                out[Cell{col, row}] = highest;
             }
         }
     });

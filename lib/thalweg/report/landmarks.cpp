@@ -3,6 +3,7 @@
 #include <thalweg/report/landmarks.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -15,32 +16,42 @@
 namespace thalweg::report {
 
 std::optional<std::pair<double, double>> height_range(Raster<float> const& dem) {
-    // Sixteen ranges side by side: one would wait for itself at each cell.
-    using Floats [[gnu::vector_size(64)]] = float;
-    constexpr std::size_t lanes = 16;
+    // Sixteen ranges side by side, of the width of registers that each processor has: one would wait for itself at each
+    // cell, and wider vectors are stored and loaded again.
+    using Floats [[gnu::vector_size(16)]] = float;
+    constexpr std::size_t lanes = 4;
+    constexpr std::size_t sets = 4;
     constexpr float none = std::numeric_limits<float>::infinity();
-    Floats low = Floats{} + none;
-    Floats high = Floats{} - none;
-    auto const take = [&](float const* from, std::size_t count) {
-        Floats z = Floats{} + none;
-        std::memcpy(&z, from, count * sizeof(float));
-        auto const is_number = z - z == 0.0F;
-        low = is_number & (z < low) ? z : low;
-        high = is_number & (z > high) ? z : high;
+    std::array<Floats, sets> low{};
+    std::array<Floats, sets> high{};
+    low.fill(Floats{} + none);
+    high.fill(Floats{} - none);
+    auto const take = [&](float const* from) {
+#pragma GCC unroll 4
+        for (std::size_t set = 0; set < sets; ++set) {
+            Floats z{};
+            std::memcpy(&z, from + set * lanes, sizeof z);
+            auto const is_number = z - z == 0.0F;
+            low[set] = is_number & (z < low[set]) ? z : low[set];
+            high[set] = is_number & (z > high[set]) ? z : high[set];
+        }
     };
     auto const values = dem.values();
     std::size_t i = 0;
-    for (; i + lanes <= values.size(); i += lanes) {
-        take(values.data() + i, lanes);
+    for (; i + sets * lanes <= values.size(); i += sets * lanes) {
+        take(values.data() + i);
     }
     if (i < values.size()) {
-        take(values.data() + i, values.size() - i);
+        std::array<float, sets * lanes> rest{};
+        rest.fill(none);
+        std::copy(values.begin() + static_cast<std::ptrdiff_t>(i), values.end(), rest.begin());
+        take(rest.data());
     }
     float lowest = none;
     float highest = -none;
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-        lowest = std::min(lowest, low[lane]);
-        highest = std::max(highest, high[lane]);
+    for (std::size_t lane = 0; lane < sets * lanes; ++lane) {
+        lowest = std::min(lowest, low[lane / lanes][lane % lanes]);
+        highest = std::max(highest, high[lane / lanes][lane % lanes]);
     }
     return highest >= lowest ? std::optional(std::pair<double, double>(lowest, highest)) : std::nullopt;
 }
