@@ -18,6 +18,11 @@
 namespace thalweg {
 namespace {
 
+#ifdef __GLIBC__
+/// Free small blocks that the process keeps for the next [bytes]: what a small terrain takes again at once.
+constexpr int kept_free = 16 << 20;
+#endif
+
 /// Memory that this process takes now [bytes]; 0: unknown. Allocates nothing.
 std::int64_t resident_bytes() noexcept {
     int const file = open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
@@ -95,13 +100,16 @@ std::int64_t PeakMemory::bytes() const {
 
 void return_small_blocks() noexcept {
 #ifdef __GLIBC__
-    malloc_trim(0);
+    if (mallinfo2().fordblks > kept_free) {
+        malloc_trim(0);
+    }
 #endif
 }
 
 void return_large_blocks() noexcept {
 #ifdef __GLIBC__
     mallopt(M_MMAP_THRESHOLD, 1 << 20);
+    mallopt(M_TRIM_THRESHOLD, kept_free); // left alone it would be 128 KiB from then on
 #endif
 }
 
