@@ -52,8 +52,8 @@ Raster<float> through_points(Raster<float> dem, Between const& between, Run cons
 }
 
 surface::DilatedDem dilated_on(recipe::SurfaceRecipe const& wanted, Between const& between, Run const& run) {
-    Valley const valley{between.valley.raster()};
     if (wanted.base == recipe::Base::paper) { // without a mask by the closed form
+        Valley const valley{between.valley.raster()};
         return between.is_whole ? surface::dilate(valley, wanted.dilate, run)
                                 : surface::dilate(valley, between.inside, wanted.dilate, run);
     }
@@ -61,7 +61,8 @@ surface::DilatedDem dilated_on(recipe::SurfaceRecipe const& wanted, Between cons
     params.tolerance = wanted.tolerance.value_or(params.tolerance);
     Raster<float> const base = wanted.base == recipe::Base::tin
                                    ? over_triangles(between, run)
-                                   : surface::harmonic(valley, between.inside, params, run);
+                                   : surface::harmonic({between.valley.raster()}, between.inside, params, run);
+    Valley const valley{between.valley.raster()};
     return between.is_whole ? surface::dilate_over(valley, base, wanted.dilate, run)
                             : surface::dilate_over(valley, base, between.inside, wanted.dilate, run);
 }
@@ -91,6 +92,9 @@ std::vector<Check> relief_checks(double asked, double rise_m) {
 Surface dilate(GroundInput const& in, Run const& run) {
     StageLog stage_log(run);
     Between between = between_rivers(in, stage_log, run);
+    if (between.is_whole) {
+        between.inside = {}; // no mask: everywhere
+    }
     recipe::SurfaceRecipe const& wanted = *in.recipe.surface;
     surface::DilatedDem made = stage_log.stage(recipe::stage::fill_dilated.name, [&] {
         surface::DilatedDem rising = dilated(wanted, between, run);

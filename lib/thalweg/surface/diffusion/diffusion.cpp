@@ -251,16 +251,17 @@ DiffusedDem diffuse(Skeleton skeleton, Mask const& inside, DiffuseParams const& 
     return {heights_of(solution.value, kind), solution.iterations, solution.residual};
 }
 
-Raster<float> harmonic(Valley const& valley, Run const& run) {
-    return harmonic(valley, {}, run);
+Raster<float> harmonic(Valley valley, Run const& run) {
+    return harmonic(std::move(valley), {}, run);
 }
 
-Raster<float> harmonic(Valley const& valley, Mask const& inside, Run const& run) {
-    return harmonic(valley, inside, HarmonicParams{}, run);
+Raster<float> harmonic(Valley valley, Mask const& inside, Run const& run) {
+    return harmonic(std::move(valley), inside, HarmonicParams{}, run);
 }
 
-Raster<float> harmonic(Valley const& valley, Mask const& inside, HarmonicParams const& params, Run const& run) {
+Raster<float> harmonic(Valley valley, Mask const& inside, HarmonicParams const& params, Run const& run) {
     auto problem = problem_through(valley.z, inside, "surface.harmonic", run);
+    valley.z = {}; // the problem has its heights
     Raster<std::uint8_t> const kind = problem.kind;
     return heights_of(solver::solve_poisson(std::move(problem), {params.tolerance, 1000}, run).value, kind);
 }

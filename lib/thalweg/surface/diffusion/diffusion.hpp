@@ -84,7 +84,7 @@ struct HarmonicParams {
 /// Interpolates a valley's heights by Laplace's equation (five-point stencil, no flux across the border): a base for
 /// dilate_over, so that E = base + H(d) is smooth where the heights of rivers differ. With `inside`, a mask in the
 /// valley's frame, nothing flows across cells of 0, and valley cells there do not count.
-/// \param valley [m] heights of river cells
+/// \param valley [m] heights of river cells; released before the solution takes its memory
 /// \return valley cells bit for bit; others between their lowest and highest, to within the tolerance times the largest
 /// |height| before rounding to float; NaN outside and in parts without valley cells
 /// \throws BadInput for no valley cell (inside), an infinite height, or a mask in another frame
@@ -92,8 +92,8 @@ struct HarmonicParams {
 /// \throws NotConverged when the solver does not reach the tolerance
 ///
 /// Source: docs/decisions/0009-harmonic-base.md.
-Raster<float> harmonic(Valley const& valley, Run const& run = {});
-Raster<float> harmonic(Valley const& valley, Mask const& inside, Run const& run = {});
-Raster<float> harmonic(Valley const& valley, Mask const& inside, HarmonicParams const& params, Run const& run = {});
+Raster<float> harmonic(Valley valley, Run const& run = {});
+Raster<float> harmonic(Valley valley, Mask const& inside, Run const& run = {});
+Raster<float> harmonic(Valley valley, Mask const& inside, HarmonicParams const& params, Run const& run = {});
 
 } // namespace thalweg::surface
