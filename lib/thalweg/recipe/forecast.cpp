@@ -23,28 +23,37 @@ std::int64_t cells_of_cluster(std::int64_t particles) {
     return std::max<std::int64_t>(1, std::llround(1.2 * radius * radius));
 }
 
-/// What the program takes besides what grows with the grid [bytes]: itself, its libraries, and pictures.
-double bytes_besides(double cells) {
-    constexpr double program = 85e6;
-    constexpr double a_pixel = 8.0;
-    constexpr double most_pixels = 2e6; // of a map; it has a pixel a cell until then
-    return program + a_pixel * std::min(cells, most_pixels);
+/// What rivers take of each cell of a grid that they fill [bytes].
+double bytes_of_rivers(Recipe const& recipe) {
+    return by_tokunaga(recipe) ? 8.0 : from_forest(recipe) ? 4.0 : 0.0;
 }
 
-/// Peak memory [bytes] of the whole program: that of its largest stage.
+/// Peak memory [bytes] of the whole program: that of its largest stage. From the first measure on files are written
+/// beside the stages, by libraries that take memory of their own, and pictures have at most some pixels.
 std::int64_t memory_of(Recipe const& recipe, RiverLines const& lines, std::int64_t cells) {
+    constexpr double program = 68e6;
+    constexpr double program_with_files = 94e6;
+    constexpr double a_pixel = 8.0;
+    constexpr double most_pixels = 2e6; // of a map; it has a pixel a cell until then
     constexpr double a_particle = 60.0;
+    constexpr double a_cell_of_files = 12.0;
     constexpr double a_cell_of_exact_detail = 120.0; // transforms on a torus of up to seven cells per cell
-    double a_cell = 0.0;
-    for (Stage const* const one : stages_of(recipe, lines)) {
-        a_cell = std::max(a_cell, one->bytes_a_cell);
-    }
-    bool const exact = levels_of(recipe) > 0 && recipe.detail->midpoint.stencil == fractal::Stencil::exact;
     auto const of = static_cast<double>(cells);
-    double const of_cells = of * std::max(a_cell, exact ? a_cell_of_exact_detail : 0.0);
-    double const of_particles =
-        from_cluster(recipe) ? a_particle * static_cast<double>(recipe.network->dla.particles) : 0.0;
-    return std::llround(bytes_besides(of) + std::max(of_cells, of_particles));
+    double const rivers = bytes_of_rivers(recipe);
+    double const files = program_with_files + a_pixel * std::min(of, most_pixels);
+    double most = files + of * (a_cell_of_files + rivers);
+    double besides = program;
+    for (Stage const* const one : stages_of(recipe, lines)) {
+        besides = one == &stage::measure ? files : besides;
+        most = std::max(most, besides + of * (one->bytes_a_cell + rivers));
+    }
+    if (levels_of(recipe) > 0 && recipe.detail->midpoint.stencil == fractal::Stencil::exact) {
+        most = std::max(most, program + of * a_cell_of_exact_detail);
+    }
+    if (from_cluster(recipe)) {
+        most = std::max(most, program + a_particle * static_cast<double>(recipe.network->dla.particles));
+    }
+    return std::llround(most);
 }
 
 /// What a cluster takes besides its cells [s].

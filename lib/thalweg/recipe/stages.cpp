@@ -28,7 +28,7 @@ using namespace ask;
 
 Stage const raster{"raster", usual, 8, on_raster};
 Stage const read{"read", usual, 5, from_lines or from_strokes};
-Stage const shape{"shape", usual, 5, from_forest};
+Stage const shape{"shape", usual, 2, from_forest};
 Stage const grow{"grow", usual, 9, from_cluster or by_tokunaga or from_forest};
 Stage const thin{"thin", usual, 6, from_cluster};
 Stage const trace{"trace", usual, 6, from_cluster};
@@ -41,17 +41,18 @@ Stage const sea{"sea",
                 {has_coastlines, "has coastlines"}};
 Stage const prune{"prune", usual, 6, with_rivers};
 Stage const meander{"meander", 0.7, 7, above(&NetworkRecipe::meander, 0) or grown_for_land};
-Stage const raise{"raise", usual, 10,
+Stage const raise{"raise", usual, 8,
                   with_rivers and (not is(&SurfaceRecipe::method, {Method::equilibrium}) or
                                    not is(&NetworkRecipe::heights, {Heights::graded}))};
 
-Stage const channels{"channels", usual, 9, in_equilibrium};
-Stage const fill_in_equilibrium{"fill", 2.0, 22, in_equilibrium};
+Stage const channels{"channels", usual, 8, in_equilibrium};
+Stage const fill_in_equilibrium{"fill", 2.0, 17.5, in_equilibrium and not from_lines};
+Stage const fill_around_given{"fill", 2.0, 41.5, in_equilibrium and from_lines}; // it keeps what they ask of the land
 Stage const scatter{"scatter", usual, 12, around_rivers and above(&SkeletonRecipe::scatter, 0)};
-Stage const ridge{"ridge", usual, 13, around_rivers and between_streams};
-Stage const tin{"tin", usual, 13, around_rivers and over_tin};
-Stage const fill_dilated{"fill", 1.0, 46, by_dilation};
-Stage const fill{"fill", 0.8, 52,
+Stage const ridge{"ridge", usual, 12, around_rivers and between_streams};
+Stage const tin{"tin", usual, 12, around_rivers and over_tin};
+Stage const fill_dilated{"fill", 1.0, 31.5, by_dilation};
+Stage const fill{"fill", 0.8, 31.5,
                  around_rivers and not is(&SurfaceRecipe::method, {Method::equilibrium, Method::dilate})};
 
 Stage const land{"land", usual, 10, not with_rivers};
@@ -59,20 +60,20 @@ Stage const detail{"detail", usual, 20, not with_rivers and is(&DetailRecipe::me
 Stage const project{"project", 20.0, 20, not with_rivers and has(&Recipe::statistics)};
 
 Stage const blend{"blend", 0.7, 20, with_surface and has(&Recipe::patches)};
-Stage const carve{"carve", 0.7, 25, is_conditioned};
-Stage const drain{"drain", usual, 20, with_surface};
-Stage const valleys{"valleys", usual, 20, around_rivers and is(&NetworkRecipe::fill_space, {true})};
-Stage const measure{"measure", usual, 22, with_surface};
-Stage const certify{"certify", usual, 25, around_rivers};
-Stage const ridges{"ridges", usual, 38, around_rivers and (between_streams or given(&SkeletonRecipe::ridge_lines))};
-Stage const areas{"areas", usual, 26,
+Stage const carve{"carve", 0.7, 17, is_conditioned};
+Stage const drain{"drain", usual, 16, with_surface};
+Stage const valleys{"valleys", usual, 16, around_rivers and is(&NetworkRecipe::fill_space, {true})};
+Stage const measure{"measure", usual, 14, with_surface};
+Stage const certify{"certify", usual, 16, around_rivers};
+Stage const ridges{"ridges", usual, 24, around_rivers and (between_streams or given(&SkeletonRecipe::ridge_lines))};
+Stage const areas{"areas", usual, 16,
                   with_surface and is(&OutputRecipe::accumulation, {true}) and writes(OutputFiles::areas)};
-Stage const laws{"laws", usual, 26, with_surface};
-Stage const relief{"relief", 0.7, 30, with_surface};
-Stage const catchments{"catchments", usual, 30,
+Stage const laws{"laws", usual, 15, with_surface};
+Stage const relief{"relief", 0.7, 16, with_surface};
+Stage const catchments{"catchments", usual, 16,
                        around_rivers and is(&OutputRecipe::catchments, {true}) and writes(OutputFiles::catchments)};
-Stage const check{"check", usual, 29, with_rivers};
-Stage const compare{"compare", usual, 30, given(&OutputRecipe::against)};
+Stage const check{"check", usual, 16, with_rivers};
+Stage const compare{"compare", usual, 20, given(&OutputRecipe::against)};
 
 } // namespace stage
 
@@ -82,12 +83,42 @@ std::string Stage::runs_if() const {
 
 std::span<Stage const* const> all_stages() {
     using namespace stage;
-    static constexpr Stage const* in_order[] = {
-        &raster,  &read,  &shape, &grow,         &thin,       &trace,    &embed,
-        &adopt,   &sea,   &prune, &meander,      &raise,      &channels, &fill_in_equilibrium,
-        &scatter, &ridge, &tin,   &fill_dilated, &fill,       &land,     &detail,
-        &project, &blend, &carve, &drain,        &valleys,    &measure,  &certify,
-        &ridges,  &areas, &laws,  &relief,       &catchments, &check,    &compare};
+    static constexpr Stage const* in_order[] = {&raster,
+                                                &read,
+                                                &shape,
+                                                &grow,
+                                                &thin,
+                                                &trace,
+                                                &embed,
+                                                &adopt,
+                                                &sea,
+                                                &prune,
+                                                &meander,
+                                                &raise,
+                                                &channels,
+                                                &fill_in_equilibrium,
+                                                &fill_around_given,
+                                                &scatter,
+                                                &ridge,
+                                                &tin,
+                                                &fill_dilated,
+                                                &fill,
+                                                &land,
+                                                &detail,
+                                                &project,
+                                                &blend,
+                                                &carve,
+                                                &drain,
+                                                &valleys,
+                                                &measure,
+                                                &certify,
+                                                &ridges,
+                                                &areas,
+                                                &laws,
+                                                &relief,
+                                                &catchments,
+                                                &check,
+                                                &compare};
     return in_order;
 }
 

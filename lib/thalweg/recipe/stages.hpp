@@ -24,9 +24,9 @@ struct LinesCondition {
 struct Stage {
     char const* name;
     double seconds_a_million; ///< of cells, on one core of 2020; estimated
-    double bytes_a_cell; ///< that the whole program takes at its peak here, beside files of what is done; estimated
-                         ///< with two threads, from peak_mb of report.json
-    Condition when;      ///< on a recipe with its defaults
+    double bytes_a_cell;      ///< that the program takes at its peak here, beside its rivers and files of what is done;
+                              ///< estimated with two threads, from peak_mb of report.json
+    Condition when;           ///< on a recipe with its defaults
     LinesCondition lines = {};
 
     /// \param recipe with its defaults
@@ -41,7 +41,8 @@ struct Stage {
 /// The stages. timings_s of report.json has these names.
 namespace stage {
 extern Stage const raster, read, shape, grow, thin, trace, embed, adopt, sea, prune, meander, raise;
-extern Stage const channels, fill_in_equilibrium, scatter, ridge, tin, fill_dilated, fill, land, detail, project;
+extern Stage const channels, fill_in_equilibrium, fill_around_given, scatter, ridge, tin, fill_dilated, fill, land,
+    detail, project;
 extern Stage const blend; ///< once for each patch
 extern Stage const carve, drain, valleys, measure, certify, ridges, areas, laws, relief, catchments, check, compare;
 } // namespace stage

@@ -5,8 +5,8 @@
 namespace thalweg {
 
 /// \internal
-/// Gives the pages of small blocks that were released back to the system, if they are many: between others they stay the process's, and
-/// lines (of growth, meanders, streams, contours) are many small blocks.
+/// Gives the pages of small blocks that were released back to the system, if they are many: between others they stay
+/// the process's, and lines (of growth, meanders, streams, contours) are many small blocks.
 void return_small_blocks() noexcept;
 
 } // namespace thalweg
