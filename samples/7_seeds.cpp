@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <thalweg/core.hpp>
+#include <thalweg/growth.hpp>
 #include <thalweg/network.hpp>
 
 using namespace thalweg;

@@ -189,8 +189,8 @@ float size_of_most(Raster<float> const& difference) {
     }
     auto rank = static_cast<std::int64_t>(most * static_cast<double>(all - 1));
     std::uint32_t const upper = reached(by_upper, rank);
-    std::uint32_t const lower = reached(counted(upper), rank);
-    return std::bit_cast<float>(upper * half + lower);
+    std::uint32_t const rest = reached(counted(upper), rank);
+    return std::bit_cast<float>(upper * half + rest);
 }
 
 } // namespace
