@@ -32,8 +32,8 @@ std::optional<std::pair<double, double>> height_range(Raster<float> const& dem) 
             Floats z{};
             std::memcpy(&z, from + set * lanes, sizeof z);
             auto const is_number = z - z == 0.0F;
-            low[set] = is_number & (z < low[set]) ? z : low[set];
-            high[set] = is_number & (z > high[set]) ? z : high[set];
+            low[set] = (is_number & (z < low[set])) ? z : low[set];
+            high[set] = (is_number & (z > high[set])) ? z : high[set];
         }
     };
     auto const values = dem.values();
