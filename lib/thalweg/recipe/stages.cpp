@@ -57,7 +57,7 @@ Stage const fill{"fill", 0.8, 31.5,
 
 Stage const land{"land", usual, 10, not with_rivers};
 Stage const detail{"detail", usual, 20, not with_rivers and is(&DetailRecipe::method, {DetailMethod::midpoint})};
-Stage const project{"project", 20.0, 20, not with_rivers and has(&Recipe::statistics)};
+Stage const project{"project", 20.0, 110, not with_rivers and has(&Recipe::statistics)};
 
 Stage const blend{"blend", 0.7, 20, with_surface and has(&Recipe::patches)};
 Stage const carve{"carve", 0.7, 17, is_conditioned};
