@@ -143,7 +143,16 @@ TEST(Paths, WaterFollowedInBandsAgreesWithOneThread) {
         flow::FlowField const drainage = flow::route(dem, one);
         auto const same = [](auto const& a, auto const& b) { RC_ASSERT(std::ranges::equal(a.values(), b.values())); };
         same(flow::route(dem, many).area_cells, drainage.area_cells);
-        same(flow::flow_lengths(drainage, many), flow::flow_lengths(drainage, one));
+        Raster<float> const lengths = flow::flow_lengths(drainage, one);
+        same(flow::flow_lengths(drainage, many), lengths);
+        std::vector<std::int64_t> some;
+        for (flow::RiverCell const& river : rivers) {
+            some.push_back(river.cell);
+        }
+        std::vector<float> const to_some = flow::flow_lengths_to(some, drainage, many);
+        for (std::size_t i = 0; i < some.size(); ++i) {
+            RC_ASSERT(to_some[i] == lengths[some[i]]);
+        }
         flow::StreamOrders const a = flow::stream_orders(drainage, 9, many);
         flow::StreamOrders const b = flow::stream_orders(drainage, 9, one);
         same(a.strahler, b.strahler);

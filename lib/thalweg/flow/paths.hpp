@@ -16,7 +16,7 @@
 // after all its donors. cut_by_edge marks all that lies below a cell on the border, whose area may
 // reach beyond the data.
 // Source: Rennó et al. 2008 and Nobre et al. 2011 (HAND); Strahler 1957; Shreve 1966.
-// Cost: O(n), each cell a fixed number of times. One thread.
+// Cost: O(n), each cell a fixed number of times. Orders in bands of rows on all cores, else one thread.
 // Not for: lengths over hillslopes, where D8 paths zigzag between eight directions. HAND of a DEM
 // with pits is below 0 there.
 // Example:

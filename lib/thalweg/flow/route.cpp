@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -194,6 +197,69 @@ FlowField through_depressions(Raster<float> const& dem, Sinks const& sinks, Run 
     return result;
 }
 
+/// Lengths of steps [m].
+class StepLengths {
+public:
+    explicit StepLengths(Grid const& grid)
+        : straight_(static_cast<float>(grid.cell_m)), diagonal_(static_cast<float>(grid.cell_m * std::sqrt(2.0))) {}
+
+    float of(Direction direction) const { return is_diagonal(direction) ? diagonal_ : straight_; }
+
+private:
+    float straight_;
+    float diagonal_;
+};
+
+/// The longest flow paths to some cells. Each is summed downstream as flow_lengths does it.
+class PathsFromDivides {
+public:
+    explicit PathsFromDivides(Raster<Direction> const& direction) : direction_(direction), step_m_(direction.grid()) {}
+
+    /// \return [m]
+    float longest_to(Cell cell) {
+        visits_.assign(1, {cell});
+        while (true) {
+            Visit& visit = visits_.back();
+            if (to_next_donor(visit)) {
+                Cell const step = d8_steps[visit.way];
+                visits_.push_back({{visit.cell.col + step.col, visit.cell.row + step.row}});
+                continue;
+            }
+            float const longest = visit.longest;
+            visits_.pop_back();
+            if (visits_.empty()) {
+                return longest;
+            }
+            Visit& below = visits_.back();
+            below.longest = std::max(below.longest, longest + step_m_.of(direction_of(below.way)));
+            ++below.way;
+        }
+    }
+
+private:
+    struct Visit {
+        Cell cell;
+        std::size_t way = 0; ///< the neighbour whose donors are visited
+        float longest = 0.0F;
+    };
+
+    /// Moves on to the next neighbour whose water comes here; false: there is none.
+    bool to_next_donor(Visit& visit) const {
+        for (; visit.way < d8_steps.size(); ++visit.way) {
+            Cell const step = d8_steps[visit.way];
+            Cell const there{visit.cell.col + step.col, visit.cell.row + step.row};
+            if (direction_.grid().contains(there) && direction_[there] == opposite(direction_of(visit.way))) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    Raster<Direction> const& direction_;
+    StepLengths step_m_;
+    std::vector<Visit> visits_; ///< down to the cell asked for
+};
+
 } // namespace
 
 void require_countable(Grid const& grid, char const* where) {
@@ -226,15 +292,25 @@ FlowField route(Raster<float> const& dem, std::vector<std::int64_t> const& sinks
 }
 
 Raster<float> flow_lengths(FlowField const& drainage, Run const& run) {
-    Grid const& grid = drainage.grid();
-    auto const straight = static_cast<float>(grid.cell_m);
-    auto const diagonal = static_cast<float>(grid.cell_m * std::sqrt(2.0));
-    Raster<float> length(grid);
+    StepLengths const step_m(drainage.grid());
+    Raster<float> length(drainage.grid());
     each_downstream(drainage.direction, run, [&](std::int64_t cell, std::int64_t receiver) {
-        float const step = is_diagonal(drainage.direction[cell]) ? diagonal : straight;
-        length[receiver] = std::max(length[receiver], length[cell] + step);
+        length[receiver] = std::max(length[receiver], length[cell] + step_m.of(drainage.direction[cell]));
     });
     return length;
+}
+
+std::vector<float> flow_lengths_to(std::vector<std::int64_t> const& cells, FlowField const& drainage, Run const& run) {
+    constexpr std::int64_t together = 64;
+    std::vector<float> lengths(cells.size());
+    parallel_ranges(run, static_cast<std::int64_t>(cells.size()), together, [&](std::int64_t begin, std::int64_t end) {
+        PathsFromDivides paths(drainage.direction);
+        for (std::int64_t i = begin; i < end; ++i) {
+            run.check();
+            lengths[i] = paths.longest_to(drainage.grid().at(cells[i]));
+        }
+    });
+    return lengths;
 }
 
 } // namespace thalweg::flow

@@ -84,6 +84,13 @@ FlowField route(Raster<float> const& dem, std::vector<std::int64_t> const& sinks
 /// Source: the length of \cite hack1957 on a grid.
 Raster<float> flow_lengths(FlowField const& drainage, Run const& run = {});
 
+/// \internal
+/// The same lengths of a few cells, to the bit, without a raster of all.
+/// \param cells of the grid, from each of which all cells above are visited
+/// \return [m] by cell
+std::vector<float> flow_lengths_to(std::vector<std::int64_t> const& cells, FlowField const& drainage,
+                                   Run const& run = {});
+
 inline constexpr float dinf_leaves = -1.0F; ///< water leaves the grid, or enters no data, here
 
 /// D-infinity flow bearings and contributing areas of a DEM.

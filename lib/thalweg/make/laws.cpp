@@ -9,7 +9,6 @@
 #include <limits>
 #include <vector>
 
-#include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/flow/paths.hpp>
 #include <thalweg/make/relief.hpp>
@@ -71,75 +70,22 @@ double area_of_outlets(StreamNetwork const& plan, flow::ContributingAreas const&
     return sum_m2;
 }
 
-/// The longest D8 flow path to a cell from a divide, as flow::flow_lengths has it; that raster would be four bytes a
-/// cell, for a few heads of rivers. Each path is summed downstream, so that no bit differs.
-class PathsFromDivides {
-public:
-    explicit PathsFromDivides(flow::FlowField const& drainage)
-        : direction_(drainage.direction), straight_(static_cast<float>(drainage.grid().cell_m)),
-          diagonal_(static_cast<float>(drainage.grid().cell_m * std::sqrt(2.0))) {}
-
-    /// \return [m]
-    float longest_to(Cell cell) {
-        visits_.assign(1, {cell});
-        while (true) {
-            Visit& visit = visits_.back();
-            if (to_next_donor(visit)) {
-                Cell const step = d8_steps[visit.way];
-                visits_.push_back({{visit.cell.col + step.col, visit.cell.row + step.row}});
-                continue;
-            }
-            float const longest = visit.longest;
-            visits_.pop_back();
-            if (visits_.empty()) {
-                return longest;
-            }
-            Visit& below = visits_.back();
-            bool const is_diagonal = flow::is_diagonal(flow::direction_of(below.way));
-            below.longest = std::max(below.longest, longest + (is_diagonal ? diagonal_ : straight_));
-            ++below.way;
-        }
-    }
-
-private:
-    struct Visit {
-        Cell cell;
-        std::size_t way = 0; ///< the neighbour whose donors are visited
-        float longest = 0.0F;
-    };
-
-    /// Moves on to the next neighbour whose water comes here; false: there is none.
-    bool to_next_donor(Visit& visit) const {
-        for (; visit.way < d8_steps.size(); ++visit.way) {
-            Cell const step = d8_steps[visit.way];
-            Cell const there{visit.cell.col + step.col, visit.cell.row + step.row};
-            if (direction_.grid().contains(there) &&
-                direction_[there] == flow::opposite(flow::direction_of(visit.way))) {
-                return true;
-            }
-        }
-        return false;
-    }
-
-    Raster<flow::Direction> const& direction_;
-    float straight_;
-    float diagonal_;
-    std::vector<Visit> visits_; ///< down to the cell asked for
-};
-
 /// [m] By node: the longest path from a divide to a source; 0 for the others and off the grid.
 std::vector<double> heads_m(StreamNetwork const& plan, flow::FlowField const& drainage, Run const& run) {
-    std::vector<double> found(plan.node_count());
-    parallel_ranges(run, static_cast<std::int64_t>(found.size()), 64, [&](std::int64_t begin, std::int64_t end) {
-        run.check();
-        PathsFromDivides paths(drainage);
-        for (auto n = static_cast<NodeId>(begin); n < static_cast<NodeId>(end); ++n) {
-            Cell const cell = drainage.grid().cell_of(plan.node(n).at);
-            if (plan.in(n).empty() && drainage.grid().contains(cell)) {
-                found[n] = static_cast<double>(paths.longest_to(cell));
-            }
+    std::vector<NodeId> sources;
+    std::vector<std::int64_t> cells;
+    for (NodeId n = 0; n < plan.node_count(); ++n) {
+        Cell const cell = drainage.grid().cell_of(plan.node(n).at);
+        if (plan.in(n).empty() && drainage.grid().contains(cell)) {
+            sources.push_back(n);
+            cells.push_back(drainage.grid().index(cell));
         }
-    });
+    }
+    std::vector<float> const lengths = flow::flow_lengths_to(cells, drainage, run);
+    std::vector<double> found(plan.node_count());
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        found[sources[i]] = static_cast<double>(lengths[i]);
+    }
     return found;
 }
 
