@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <algorithm>
+#include <deque>
 #include <utility>
+#include <vector>
 
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/lanes.hpp>
@@ -199,7 +202,7 @@ float wanted_height(TerrainLevel const& level, EquilibriumLaw const& law, std::s
 }
 
 /// Marks the flow path beside a river cell with the deficit of the terrain there.
-void mark_lack(TerrainLevel const& level, EquilibriumLaw const& law, std::size_t n, Cells<float>& marks) {
+void mark_lack(TerrainLevel const& level, EquilibriumLaw const& law, std::size_t n, SomeCells& marks) {
     RiverCells const& rivers = level.rivers;
     auto const lowest = lowest_beside(level, rivers.cell[n]);
     float const wanted = lowest ? wanted_height(level, law, n) : 0.0F;
@@ -222,47 +225,68 @@ void mark_lack(TerrainLevel const& level, EquilibriumLaw const& law, std::size_t
     float const has = std::max(level.z[*lowest] - base, least * level.side);
     auto const lack = static_cast<float>(portable::log(static_cast<double>(std::max((wanted - base) / has, 1.0F))));
     for (std::size_t const i : path) {
-        marks[i] = std::max(marks[i], rate * std::min(1.0F, lack));
+        marks.set(i, std::max(marks.or_zero(i), rate * std::min(1.0F, lack)), level.type.size());
     }
 }
 
-/// Sums over 2 reach + 1 neighbours along one axis.
-Cells<float> sums_along(Cells<float> const& values, std::int64_t lines, std::int64_t line_step, std::int64_t length,
-                        std::int64_t step, std::int64_t reach) {
-    Cells<float> sums(values.size());
-    for (std::int64_t line = 0; line < lines; ++line) {
-        for (std::int64_t k = 0; k < length; ++k) {
-            float sum = 0.0F;
-            for (std::int64_t n = std::max<std::int64_t>(0, k - reach); n <= std::min(length - 1, k + reach); ++n) {
-                sum += values[line * line_step + n * step];
-            }
-            sums[line * line_step + k * step] = sum;
+/// Sums of the marks within reach along a row, and their numbers; empty: there are none.
+struct RowOfMarks {
+    std::vector<float> sums;
+    std::vector<float> counts;
+};
+
+RowOfMarks row_of(SomeCells const& marks, std::size_t first, std::int64_t width, std::int64_t reach) {
+    std::vector<float> values(static_cast<std::size_t>(width), 0.0F);
+    marks.write(first, values);
+    if (std::ranges::all_of(values, [](float mark) { return mark == 0.0F; })) {
+        return {};
+    }
+    RowOfMarks out{std::vector<float>(values.size()), std::vector<float>(values.size())};
+    for (std::int64_t col = 0; col < width; ++col) {
+        for (std::int64_t c = std::max<std::int64_t>(0, col - reach); c <= std::min(width - 1, col + reach); ++c) {
+            out.sums[col] += values[c];
+            out.counts[col] += values[c] > 0.0F ? 1.0F : 0.0F;
         }
     }
-    return sums;
+    return out;
 }
 
-/// By cell the mean of the marks in a square around it, 0 where there are none.
-Cells<float> spread(Cells<float> const& marks, TerrainLevel const& level, std::int64_t reach) {
-    Cells<float> counts(marks.size());
-    std::transform(marks.begin(), marks.end(), counts.begin(), [](float mark) { return mark > 0.0F ? 1.0F : 0.0F; });
-    auto const sums = [&](Cells<float> const& of) {
-        return sums_along(sums_along(of, level.height, level.width, level.width, 1, reach), level.width, 1,
-                          level.height, level.width, reach);
-    };
-    Cells<float> means = sums(marks);
-    counts = sums(counts);
-    for (std::size_t i = 0; i < means.size(); ++i) {
-        means[i] = counts[i] > 0.0F ? means[i] / counts[i] : 0.0F;
+/// Calls take(cell, mean) for the cells that have marks in a square around them, with their mean.
+template <class Take> void spread(SomeCells const& marks, TerrainLevel const& level, std::int64_t reach, Take take) {
+    std::deque<RowOfMarks> rows; // within reach of a row: few, as a level of them would take more than all else
+    std::vector<float> sums(static_cast<std::size_t>(level.width));
+    std::vector<float> counts(sums.size());
+    for (std::int64_t row = -reach; row < level.height; ++row) {
+        if (std::int64_t const next = row + reach; next < level.height) {
+            rows.push_back(row_of(marks, static_cast<std::size_t>(next * level.width), level.width, reach));
+        }
+        if (row > reach) {
+            rows.pop_front();
+        }
+        if (row < 0 || std::ranges::all_of(rows, [](RowOfMarks const& of) { return of.sums.empty(); })) {
+            continue;
+        }
+        std::ranges::fill(sums, 0.0F);
+        std::ranges::fill(counts, 0.0F);
+        for (RowOfMarks const& of : rows) {
+            for (std::size_t col = 0; col < of.sums.size(); ++col) {
+                sums[col] += of.sums[col];
+                counts[col] += of.counts[col];
+            }
+        }
+        for (std::size_t col = 0; col < sums.size(); ++col) {
+            if (counts[col] > 0.0F) {
+                take(static_cast<std::size_t>(row * level.width) + col, sums[col] / counts[col]);
+            }
+        }
     }
-    return means;
 }
 
 void add_firmness(TerrainLevel& level, std::size_t i, float more) {
     if (more == 0.0F || level.type[i] == CellType::river) {
         return;
     }
-    level.firmness[i] += more;
+    level.firmness.set(i, level.firmness.or_zero(i) + more, level.type.size());
     level.rock.set_erodibility(i, level.rock.erodibility(i) *
                                       static_cast<float>(portable::exp(static_cast<double>(-more))));
     level.rock.set_cap(i, level.rock.cap(i) * static_cast<float>(portable::exp(static_cast<double>(of_cap * more))));
@@ -299,29 +323,28 @@ void set_erodibility(TerrainLevel& level, ErodibilityFields const& fields, Erodi
 
 void reduce_erodibility(TerrainLevel& level, EquilibriumLaw const& law) {
     RiverCells const& rivers = level.rivers;
-    Cells<float> marks(static_cast<std::size_t>(level.cells()), 0.0F);
+    SomeCells marks;
     for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
         if (rivers.number[n] >= 0 && !leaves_grid(rivers, n) && rivers.level[n] == 0) {
             mark_lack(level, law, n, marks);
         }
     }
-    if (std::all_of(marks.begin(), marks.end(), [](float mark) { return mark == 0.0F; })) {
+    if (marks.empty()) {
         return;
     }
-    level.firmness.resize(marks.size(), 0.0F);
-    marks = spread(marks, level, std::max<std::int64_t>(1, static_cast<std::int64_t>(reach_cells / level.side)));
-    for (std::size_t i = 0; i < marks.size(); ++i) {
-        add_firmness(level, i, std::max(0.0F, std::min(marks[i], firmest - level.firmness[i])));
-    }
+    auto const reach = std::max<std::int64_t>(1, static_cast<std::int64_t>(reach_cells / level.side));
+    spread(marks, level, reach, [&](std::size_t i, float mean) {
+        add_firmness(level, i, std::max(0.0F, std::min(mean, firmest - level.firmness.or_zero(i))));
+    });
 }
 
 void change_erodibility_at_crests(TerrainLevel& level, Run const& run) {
     WallParams walls;
     walls.reach = reach_cells / level.side;
     Cells<float> const lack = land_off_crests(level, walls, run);
-    level.firmness.resize(std::max(level.firmness.size(), lack.size()), 0.0F);
     for (std::size_t i = 0; i < lack.size(); ++i) {
-        add_firmness(level, i, std::clamp(lack[i], -firmest - level.firmness[i], firmest - level.firmness[i]));
+        float const has = level.firmness.or_zero(i);
+        add_firmness(level, i, std::clamp(lack[i], -firmest - has, firmest - has));
     }
 }
 
@@ -329,10 +352,10 @@ void copy_firmness(TerrainLevel& level, TerrainLevel const& coarser) {
     if (coarser.firmness.empty()) {
         return;
     }
-    level.firmness.assign(static_cast<std::size_t>(level.cells()), 0.0F);
     each_inner(level, [&](std::size_t i) {
         Cell const c = level.at(i);
-        add_firmness(level, i, value_at(coarser, coarser.firmness, place_in(coarser, level, c.col, c.row)));
+        auto const value = [&](std::int64_t cell) { return coarser.firmness.or_zero(static_cast<std::size_t>(cell)); };
+        add_firmness(level, i, value_between(coarser, value, place_in(coarser, level, c.col, c.row)));
     });
 }
 

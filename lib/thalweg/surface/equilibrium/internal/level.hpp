@@ -196,7 +196,7 @@ struct TerrainLevel {
     std::vector<Inflow> inflow;          ///< water from beyond the frame
     std::vector<std::uint32_t> crests;   ///< land cells that no water crosses where it finds another way, ascending
     Cells<std::uint8_t> is_crest;        ///< by cell; empty: there are none
-    Cells<float> firmness;               ///< [log] decrease of erodibility below the fields' values; empty: none
+    SomeCells firmness;                  ///< [log] decrease of erodibility below the fields' values
 
     std::int64_t cells() const { return width * height; }
     Cell at(std::size_t i) const {
@@ -225,20 +225,25 @@ inline LevelPlace place_in(TerrainLevel const& coarse, TerrainLevel const& level
     return {east / static_cast<double>(coarse.side) + 0.5, south / static_cast<double>(coarse.side) + 0.5};
 }
 
-/// Interpolates a field of the level, between cells inside its frame.
-inline float value_at(TerrainLevel const& level, Cells<float> const& field, LevelPlace p) {
+/// Interpolates between cells inside a level's frame.
+/// \param of the value of a cell
+template <class Of> float value_between(TerrainLevel const& level, Of of, LevelPlace p) {
     double const left = std::floor(p.col);
     double const top = std::floor(p.row);
     auto const value = [&](double col, double row) {
         auto const c = std::clamp<std::int64_t>(static_cast<std::int64_t>(col), 1, level.width - 2);
         auto const r = std::clamp<std::int64_t>(static_cast<std::int64_t>(row), 1, level.height - 2);
-        return field[r * level.width + c];
+        return of(r * level.width + c);
     };
     auto const u = static_cast<float>(p.col - left);
     auto const v = static_cast<float>(p.row - top);
     float const upper = value(left, top) + (value(left + 1.0, top) - value(left, top)) * u;
     float const lower = value(left, top + 1.0) + (value(left + 1.0, top + 1.0) - value(left, top + 1.0)) * u;
     return upper + (lower - upper) * v;
+}
+inline float value_at(TerrainLevel const& level, Cells<float> const& field, LevelPlace p) {
+    return value_between(
+        level, [&](std::int64_t cell) { return field[cell]; }, p);
 }
 
 /// Rows for one worker at least: fewer cells take less time than handing them over.

@@ -30,6 +30,11 @@ public:
         return run == 0 ? none : values_[(run - 1) * length + cell % length];
     }
 
+    float or_zero(std::size_t cell) const {
+        float const value = at(cell);
+        return std::isnan(value) ? 0.0F : value;
+    }
+
     /// \param cells of the level
     void set(std::size_t cell, float value, std::size_t cells) {
         run_.resize(cells / length + 1, 0);
