@@ -229,8 +229,8 @@ void check_drained(TerrainLevel const& level, Mask const& land, std::int64_t mar
 /// Frees everything that the next level and the output do not need.
 void free_finished_memory(TerrainLevel& level) {
     level.rock = {};
-    level.uplift = {};
-    level.area = {};
+    release(level.uplift);
+    release(level.area);
 }
 
 /// What finer levels need of the region.

@@ -265,13 +265,15 @@ private:
         walls.tolerance *= gentleness_;
         walls.least_height *= gentleness_;
         walls.reach = static_cast<float>(std::min(90.0 / grid_.cell_m, 0.2 * spacing_)) / level.side;
-        for (Cells<float> lack : {land_below_rivers(level, walls, run_), land_off_crests(level, walls, run_),
-                                  land_off_known(level, known, walls, run_)}) {
+        std::array lacks = {land_below_rivers(level, walls, run_), land_off_crests(level, walls, run_),
+                            land_off_known(level, known, walls, run_)};
+        for (Cells<float>& lack : lacks) {
             for (std::size_t i = 0; i < lack.size(); ++i) {
                 lack[i] = std::clamp(lack[i], -most_boost - boost[i], most_boost - boost[i]);
                 boost[i] += lack[i];
             }
             lift(level, uplift, lack);
+            release(lack);
         }
     }
 
@@ -299,6 +301,13 @@ private:
         return all > 0 ? fine + (coarse - fine) * static_cast<int>(number) / all : coarse;
     }
 
+    /// Frees what neither the next level nor divides need.
+    static void free_all_but_water(TerrainLevel& level) {
+        level.rock = {};
+        release(level.uplift);
+        release(level.area);
+    }
+
     void smooth(LandLaw const& law) {
         constexpr double most_sunken = 0.1; // real land: .03 or less
         constexpr double most_deg = 40.0;
@@ -307,7 +316,7 @@ private:
         for (std::size_t number = levels_.size(); number-- > 0;) {
             TerrainLevel level = empty_level(number, 0.0);
             bool const first = coarser.z.empty();
-            NearestRiver const near = nearest_base(level);
+            NearestRiver near = nearest_base(level);
             Cells<float> const valleys = valley_heights(level, near);
             if (first) {
                 level.z.assign(static_cast<std::size_t>(level.cells()), 0.0F);
@@ -319,9 +328,11 @@ private:
             } else {
                 start_from(level, coarser, params_.seed, {0.05F * gentleness_, 0.6F}, run_);
             }
+            near = {};
             hold_rivers(level);
             Cells<float> uplift = level.uplift;
             Cells<float> boost = first ? Cells<float>(level.z.size(), 0.0F) : boost_from(level, coarser, coarse_boost);
+            coarser = {};
             lift(level, uplift, boost);
             flood_terrain(level);
             Pull pull;
@@ -351,10 +362,12 @@ private:
                 }
                 run_.check();
             }
+            release(uplift);
+            free_all_but_water(level);
             if (number < textured_levels) {
                 SmoothLevel& kept = smooth_[number];
                 kept.to_divide = distance_to_divides(level, link_, run_);
-                kept.z = level.z;
+                kept.z = number > 0 ? level.z : std::move(level.z);
                 kept.boost = number + 1 == std::min(textured_levels, levels_.size()) ? boost : Cells<float>{};
             }
             coarse_boost = std::move(boost);
@@ -384,7 +397,7 @@ private:
             Cell const c = level.at(i);
             return std::clamp(1.0 + 1.5 * value_noise(params_.seed, {c.col * side, c.row * side}, wave), 0.0, 1.0);
         };
-        Cells<float> out(level.z.size(), 0.0F);
+        Cells<float> out(level.type.size(), 0.0F);
         each_cell(level, [&](std::size_t i) {
             double const near_these =
                 std::max(fading(to_divide[i], divide_cells), fading(near.distance[i], river_cells));
@@ -421,11 +434,16 @@ private:
         Cells<float> correction; // factor of uplift
         for (std::size_t number = std::min(textured_levels, levels_.size()); number-- > 0;) {
             SmoothLevel& like = smooth_[number];
-            TerrainLevel const coarser = std::exchange(level, empty_level(number, params_.roughness));
-            NearestRiver const near = straight_to(level, level.rivers.cell, run_);
+            TerrainLevel coarser = std::exchange(level, empty_level(number, params_.roughness));
+            land_.fields = number > 0 ? std::move(land_.fields) : ErodibilityFields{};
+            NearestRiver near = straight_to(level, level.rivers.cell, run_);
             Cells<float> const valleys = valley_heights(level, near);
             KnownHeights const known = known_heights(level, features_, grid_);
             like.z = through_known(level, std::move(like.z), known, near, run_);
+            Pull pull;
+            pull.stiffness = springs(level, law, near, like.to_divide, known);
+            release(like.to_divide);
+            near = {};
             if (coarser.z.empty()) {
                 level.z = like.z;
                 roughen(level, params_.seed, 0.2F * gentleness_, run_);
@@ -436,12 +454,11 @@ private:
                 boost = boost_from(level, coarser, boost);
                 correction = boost_from(level, coarser, correction);
             }
+            coarser = {};
             hold_rivers(level);
             Cells<float> uplift = level.uplift;
             lift(level, uplift, boost);
             flood_terrain(level);
-            Pull pull;
-            pull.stiffness = springs(level, law, near, like.to_divide, known);
             if (number == 0 || !level.crests.empty()) {
                 pull.floor = number == 0 ? floors(level, like.z) : no_floor(level);
             }
@@ -460,7 +477,13 @@ private:
                 return out;
             };
             Cells<float> const wanted = blurred_heights(like.z);
-            float const some = 0.5F * gentleness_;
+            auto const correct = [&](float some) {
+                Cells<float> const has = blurred_heights(level.z);
+                each_cell(level, [&](std::size_t i) {
+                    float const step = std::sqrt((wanted[i] + some) / (has[i] + some));
+                    correction[i] = std::clamp(correction[i] * step, least_correction, most_correction);
+                });
+            };
             int const rounds = rounds_of(number) + (known.cell.empty() ? 0 : more_for_heights);
             for (int round = 0; round < rounds; ++round) {
                 run_.at(0.5 + share_done(number, round, rounds) * 0.5, "fill");
@@ -472,17 +495,16 @@ private:
                     valley_floors(level, {params_.floor_width_km, grid_.cell_m, params_.seed}, run_);
                 }
                 auto const k = static_cast<float>(factor_);
+                level.uplift.resize(level.z.size());
                 each_cell(level, [&, z = like.z.data()](std::size_t i) {
                     float const force = pull.stiffness[i] > 0.0F ? pull.stiffness[i] * z[i] : 0.0F;
                     level.uplift[i] = k * uplift[i] * correction[i] + force;
                 });
                 raise_crests(level, pull.floor);
                 relax_terrain(level, law, pull, run_);
-                Cells<float> const has = blurred_heights(level.z);
-                each_cell(level, [&](std::size_t i) {
-                    float const step = std::sqrt((wanted[i] + some) / (has[i] + some));
-                    correction[i] = std::clamp(correction[i] * step, least_correction, most_correction);
-                });
+                release(level.area); // both follow anew in each round
+                release(level.uplift);
+                correct(0.5F * gentleness_);
                 if (round % 2 == 1 || number == 0) {
                     raise_where_wanted(level, known, uplift, boost);
                 }

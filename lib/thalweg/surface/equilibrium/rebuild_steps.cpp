@@ -3,6 +3,8 @@
 
 #include <thalweg/surface/equilibrium/internal/rebuild_steps.hpp>
 
+#include <algorithm>
+
 // Described in docs/rebuild.md.
 
 namespace thalweg::surface {
@@ -43,27 +45,34 @@ void blur_row(float const* from, float* to, std::int64_t width, std::int64_t rea
     }
 }
 
-/// Means along columns.
-void blur_columns(float const* from, float* to, Rows const& rows, std::int64_t begin, std::int64_t end,
-                  std::int64_t reach) {
-    std::vector<double> sums(static_cast<std::size_t>(end - begin), 0.0);
+/// Means along columns, in place.
+void blur_columns(float* first, Rows const& rows, std::int64_t begin, std::int64_t end, std::int64_t reach) {
+    auto const count = static_cast<std::size_t>(end - begin);
+    std::vector<double> sums(count, 0.0);
     auto const row = [&](std::int64_t r) {
-        return from + std::clamp<std::int64_t>(r, 0, rows.height - 1) * rows.width + begin;
+        return first + std::clamp<std::int64_t>(r, 0, rows.height - 1) * rows.stride + begin;
     };
     for (std::int64_t r = -reach; r <= reach; ++r) {
         float const* const values = row(r);
-        for (std::size_t c = 0; c < sums.size(); ++c) {
+        for (std::size_t c = 0; c < count; ++c) {
             sums[c] += static_cast<double>(values[c]);
         }
     }
+    std::int64_t const kept = std::min(reach + 1, rows.height);
+    std::vector<float> before(static_cast<std::size_t>(kept) * count); // of the last rows, which have means by now
+    auto const was = [&](std::int64_t r) {
+        return before.data() + static_cast<std::size_t>(std::max<std::int64_t>(r, 0) % kept) * count;
+    };
     double const part = 1.0 / static_cast<double>(2 * reach + 1);
     for (std::int64_t r = 0; r < rows.height; ++r) {
-        float* const out = to + r * rows.stride + begin;
+        float* const out = row(r);
+        std::copy_n(out, count, was(r));
         float const* const enters = row(r + reach + 1);
-        float const* const leaves = row(r - reach);
-        for (std::size_t c = 0; c < sums.size(); ++c) {
+        float const* const leaves = was(r - reach);
+        for (std::size_t c = 0; c < count; ++c) {
+            float const value = enters[c];
             out[c] = static_cast<float>(sums[c] * part);
-            sums[c] += static_cast<double>(enters[c]) - static_cast<double>(leaves[c]);
+            sums[c] += static_cast<double>(value) - static_cast<double>(leaves[c]);
         }
     }
 }
@@ -90,15 +99,16 @@ std::optional<std::size_t> lowest_land_beside(TerrainLevel const& level, std::ui
 
 void blur(float* first, Rows const& rows, BlurParams const& params, Run const& run) {
     constexpr std::int64_t columns = 256;
-    Cells<float> along(static_cast<std::size_t>(rows.width * rows.height));
     for (int pass = 0; pass < params.passes; ++pass) {
         parallel_ranges(run, rows.height, least_rows(rows.width), [&](std::int64_t begin, std::int64_t end) {
+            std::vector<float> along(static_cast<std::size_t>(rows.width));
             for (std::int64_t r = begin; r < end; ++r) {
-                blur_row(first + r * rows.stride, &along[r * rows.width], rows.width, params.reach);
+                blur_row(first + r * rows.stride, along.data(), rows.width, params.reach);
+                std::ranges::copy(along, first + r * rows.stride);
             }
         });
         parallel_ranges(run, rows.width, columns, [&](std::int64_t begin, std::int64_t end) {
-            blur_columns(along.data(), first, rows, begin, end, params.reach);
+            blur_columns(first, rows, begin, end, params.reach);
         });
     }
 }
@@ -173,7 +183,7 @@ Cells<std::int32_t> links_of(TerrainLevel const& level, std::vector<std::int32_t
 }
 
 Cells<float> distance_to_divides(TerrainLevel const& level, std::vector<std::int32_t> const& link, Run const& run) {
-    Cells<std::int32_t> const links = links_of(level, link, run);
+    Cells<std::int32_t> links = links_of(level, link, run);
     auto const offsets = level.offsets();
     std::vector<std::uint32_t> divides;
     each_inner(level, [&](std::size_t i) {
@@ -192,6 +202,7 @@ Cells<float> distance_to_divides(TerrainLevel const& level, std::vector<std::int
             }
         }
     });
+    release(links);
     return straight_to(level, divides, run).distance;
 }
 

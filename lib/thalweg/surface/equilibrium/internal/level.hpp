@@ -143,6 +143,11 @@ RiverCells coarsened(RiverCells const& fine, std::int64_t fine_width, std::int64
 
 template <class T> using Cells = std::vector<T, LargePages<T>>;
 
+/// Frees a vector's memory, which it keeps if {} is assigned.
+template <class Values> void release(Values& values) {
+    Values().swap(values);
+}
+
 /// Cell types of the solver.
 enum class CellType : std::uint8_t {
     land,
