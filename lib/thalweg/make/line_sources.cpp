@@ -207,6 +207,9 @@ std::vector<SecondaryLine> LineSources::missing(StreamNetwork const& before, Str
 }
 
 LineSources LineSources::bent(StreamNetwork const& before, StreamNetwork const& after) const {
+    if (!knows_any_) { // a record of nothing takes as much memory as another
+        return {};
+    }
     auto stretches = of(before);
     for (std::size_t a = 0; a < stretches.size(); ++a) {
         double const share = after.length_m(a) / before.length_m(a);
