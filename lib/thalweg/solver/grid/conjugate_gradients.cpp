@@ -299,14 +299,14 @@ double up(Level const& level, TwoColours<float> const& r, TwoColours<float>& e, 
     });
 }
 
-/// The second half of a cycle, after down_again.
+/// The second half of a cycle, after down_again. Of the former values only those of red cells are read.
 void up_again(CoarseLevel& level, CoarseLevel const& coarse, GridRows const& rows, Run const& run) {
     std::int64_t const n = level.board.half();
-    up(level, level.r, level.next, coarse, rows, run, [&](float* to, std::int64_t y, float const* correction) {
+    std::swap(level.e.of[red], level.former);
+    up(level, level.r, level.e, coarse, rows, run, [&](float* to, std::int64_t y, float const* correction) {
         std::copy_n(correction, n, to);
-        rows.direct(to, level.e.of[red].row(y), 1.0F, n); // cells that are not free have no edges
+        rows.direct(to, level.former.row(y), 1.0F, n); // cells that are not free have no edges
     });
-    std::swap(level.e, level.next);
 }
 
 /// Approximately solves the level's equations for its own right-hand side.
@@ -505,7 +505,7 @@ std::vector<CoarseLevel> coarse_levels(Raster<std::uint8_t> const& kind, Run con
         levels.push_back(level_of(equations, run));
     }
     for (std::size_t i = 0; i < std::min(levels_solved_twice, levels.size()); ++i) {
-        levels[i].next = TwoColours<float>(levels[i].board);
+        levels[i].former = Plane<float>(levels[i].board);
     }
     return levels;
 }

@@ -137,7 +137,7 @@ struct CoarseLevel {
     Board board;
     TwoColours<float> r;       ///< right-hand side
     TwoColours<float> e;       ///< solution
-    TwoColours<float> next;    ///< the next one, while it is computed
+    Plane<float> former;       ///< of red cells, while the next one is computed
     TwoColours<float> inverse; ///< 1 / diagonal; 0 without free cells
     /// Weights of the edges from each red cell; black cells share them.
     Plane<float> above, left, right, below;
