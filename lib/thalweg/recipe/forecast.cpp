@@ -25,7 +25,7 @@ std::int64_t cells_of_cluster(std::int64_t particles) {
 
 /// What rivers take of each cell of a grid that they fill [bytes].
 double bytes_of_rivers(Recipe const& recipe) {
-    return by_tokunaga(recipe) ? 8.0 : from_forest(recipe) ? 4.0 : 0.0;
+    return by_tokunaga(recipe) ? 4.0 : from_forest(recipe) ? 2.0 : 0.0;
 }
 
 /// Peak memory [bytes] of the whole program: that of its largest stage. From the first measure on files are written

@@ -46,13 +46,13 @@ Stage const raise{"raise", usual, 8,
                                    not is(&NetworkRecipe::heights, {Heights::graded}))};
 
 Stage const channels{"channels", usual, 8, in_equilibrium};
-Stage const fill_in_equilibrium{"fill", 2.0, 17.5, in_equilibrium and not from_lines};
-Stage const fill_around_given{"fill", 2.0, 41.5, in_equilibrium and from_lines}; // it keeps what they ask of the land
+Stage const fill_in_equilibrium{"fill", 2.0, 19, in_equilibrium and not is(&NetworkRecipe::heights, {Heights::file})};
+Stage const fill_rebuilt{"fill", 2.0, 62, in_equilibrium and is(&NetworkRecipe::heights, {Heights::file})};
 Stage const scatter{"scatter", usual, 12, around_rivers and above(&SkeletonRecipe::scatter, 0)};
 Stage const ridge{"ridge", usual, 12, around_rivers and between_streams};
 Stage const tin{"tin", usual, 12, around_rivers and over_tin};
-Stage const fill_dilated{"fill", 1.0, 31.5, by_dilation};
-Stage const fill{"fill", 0.8, 31.5,
+Stage const fill_dilated{"fill", 1.0, 31, by_dilation};
+Stage const fill{"fill", 0.8, 31,
                  around_rivers and not is(&SurfaceRecipe::method, {Method::equilibrium, Method::dilate})};
 
 Stage const land{"land", usual, 10, not with_rivers};
@@ -83,42 +83,13 @@ std::string Stage::runs_if() const {
 
 std::span<Stage const* const> all_stages() {
     using namespace stage;
-    static constexpr Stage const* in_order[] = {&raster,
-                                                &read,
-                                                &shape,
-                                                &grow,
-                                                &thin,
-                                                &trace,
-                                                &embed,
-                                                &adopt,
-                                                &sea,
-                                                &prune,
-                                                &meander,
-                                                &raise,
-                                                &channels,
-                                                &fill_in_equilibrium,
-                                                &fill_around_given,
-                                                &scatter,
-                                                &ridge,
-                                                &tin,
-                                                &fill_dilated,
-                                                &fill,
-                                                &land,
-                                                &detail,
-                                                &project,
-                                                &blend,
-                                                &carve,
-                                                &drain,
-                                                &valleys,
-                                                &measure,
-                                                &certify,
-                                                &ridges,
-                                                &areas,
-                                                &laws,
-                                                &relief,
-                                                &catchments,
-                                                &check,
-                                                &compare};
+    static constexpr Stage const* in_order[] = {
+        &raster,       &read,    &shape, &grow,    &thin,         &trace,      &embed,
+        &adopt,        &sea,     &prune, &meander, &raise,        &channels,   &fill_in_equilibrium,
+        &fill_rebuilt, &scatter, &ridge, &tin,     &fill_dilated, &fill,       &land,
+        &detail,       &project, &blend, &carve,   &drain,        &valleys,    &measure,
+        &certify,      &ridges,  &areas, &laws,    &relief,       &catchments, &check,
+        &compare};
     return in_order;
 }
 
