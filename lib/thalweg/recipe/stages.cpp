@@ -46,7 +46,9 @@ Stage const raise{"raise", usual, 8,
                                    not is(&NetworkRecipe::heights, {Heights::graded}))};
 
 Stage const channels{"channels", usual, 8, in_equilibrium};
-Stage const fill_in_equilibrium{"fill", 2.0, 19, in_equilibrium and not is(&NetworkRecipe::heights, {Heights::file})};
+Stage const fill_in_equilibrium{"fill", 2.0, 19, in_equilibrium and is(&NetworkRecipe::heights, {Heights::graded})};
+Stage const fill_with_heights{"fill", 4.0, 31, // solved again until the metres of heights fit
+                              in_equilibrium and not is(&NetworkRecipe::heights, {Heights::graded, Heights::file})};
 Stage const fill_rebuilt{"fill", 2.0, 62, in_equilibrium and is(&NetworkRecipe::heights, {Heights::file})};
 Stage const scatter{"scatter", usual, 12, around_rivers and above(&SkeletonRecipe::scatter, 0)};
 Stage const ridge{"ridge", usual, 12, around_rivers and between_streams};
@@ -83,13 +85,43 @@ std::string Stage::runs_if() const {
 
 std::span<Stage const* const> all_stages() {
     using namespace stage;
-    static constexpr Stage const* in_order[] = {
-        &raster,       &read,    &shape, &grow,    &thin,         &trace,      &embed,
-        &adopt,        &sea,     &prune, &meander, &raise,        &channels,   &fill_in_equilibrium,
-        &fill_rebuilt, &scatter, &ridge, &tin,     &fill_dilated, &fill,       &land,
-        &detail,       &project, &blend, &carve,   &drain,        &valleys,    &measure,
-        &certify,      &ridges,  &areas, &laws,    &relief,       &catchments, &check,
-        &compare};
+    static constexpr Stage const* in_order[] = {&raster,
+                                                &read,
+                                                &shape,
+                                                &grow,
+                                                &thin,
+                                                &trace,
+                                                &embed,
+                                                &adopt,
+                                                &sea,
+                                                &prune,
+                                                &meander,
+                                                &raise,
+                                                &channels,
+                                                &fill_in_equilibrium,
+                                                &fill_with_heights,
+                                                &fill_rebuilt,
+                                                &scatter,
+                                                &ridge,
+                                                &tin,
+                                                &fill_dilated,
+                                                &fill,
+                                                &land,
+                                                &detail,
+                                                &project,
+                                                &blend,
+                                                &carve,
+                                                &drain,
+                                                &valleys,
+                                                &measure,
+                                                &certify,
+                                                &ridges,
+                                                &areas,
+                                                &laws,
+                                                &relief,
+                                                &catchments,
+                                                &check,
+                                                &compare};
     return in_order;
 }
 
