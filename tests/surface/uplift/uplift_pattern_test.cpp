@@ -3,7 +3,10 @@
 #include <thalweg/surface/uplift/uplift_pattern.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -105,6 +108,24 @@ TEST(UpliftPattern, SameForAnyThreadsOtherForAnotherSeed) {
         EXPECT_EQ(same, pattern == UpliftPattern::tilt);
     }
     EXPECT_NE(surface::random_strike_deg(7), surface::random_strike_deg(8));
+}
+
+// A seed has one pattern, whose bytes it is; many seeds have each of the three.
+TEST(UpliftPattern, OfASeed) {
+    std::array<int, 5> seeds{};
+    for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+        ++seeds[static_cast<std::size_t>(surface::uplift_pattern_of_seed(seed))];
+    }
+    EXPECT_EQ(seeds[static_cast<std::size_t>(UpliftPattern::tilt)], 0);
+    for (UpliftPattern const pattern : {UpliftPattern::domes, UpliftPattern::blocks, UpliftPattern::folds}) {
+        EXPECT_GT(seeds[static_cast<std::size_t>(pattern)], 75);
+    }
+    Grid const grid = frame_below(20, 20, 300.0);
+    UpliftPatternParams params = of(UpliftPattern::seed, 20.0);
+    Raster<float> const by_seed = uplift_pattern(grid, params);
+    params.pattern = surface::uplift_pattern_of_seed(params.seed);
+    Raster<float> const of_it = uplift_pattern(grid, params);
+    EXPECT_TRUE(std::equal(by_seed.values().begin(), by_seed.values().end(), of_it.values().begin()));
 }
 
 TEST(UpliftPattern, RefusesWhatCannotBe) {

@@ -3,7 +3,9 @@
 #include <thalweg/surface/uplift/uplift_pattern.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/random.hpp>
@@ -16,8 +18,9 @@ namespace thalweg::surface {
 
 namespace {
 
-constexpr std::uint64_t strike_stage = 0x737472696b65; // "strike"
-constexpr std::uint64_t uplift_stage = 0x75706c696674; // "uplift"
+constexpr std::uint64_t strike_stage = 0x737472696b65;    // "strike"
+constexpr std::uint64_t uplift_stage = 0x75706c696674;    // "uplift"
+constexpr std::uint64_t pattern_stage = 0x7061747465726e; // "pattern"
 constexpr double radians = portable::pi / 180.0;
 
 /// A position in wavelengths from the grid's centre.
@@ -77,7 +80,8 @@ double share_at(UpliftPatternParams const& params, Place p, double half_width) {
     case UpliftPattern::tilt: return 0.5 + 0.5 * p.across / half_width;
     case UpliftPattern::domes: return dome(params.seed, p);
     case UpliftPattern::blocks: return block(params.seed, p);
-    case UpliftPattern::folds: break;
+    case UpliftPattern::folds:
+    case UpliftPattern::seed: break;
     }
     return fold(params.seed, p);
 }
@@ -95,8 +99,19 @@ double random_strike_deg(std::uint64_t seed) {
     return 90.0 - 180.0 * unit(random_word(seed, strike_stage));
 }
 
-Raster<float> uplift_pattern(Grid const& grid, UpliftPatternParams const& params, Run const& run) {
-    check(params);
+UpliftPattern uplift_pattern_of_seed(std::uint64_t seed) {
+    constexpr std::array<UpliftPattern, 3> patterns = {UpliftPattern::domes, UpliftPattern::blocks,
+                                                       UpliftPattern::folds};
+    double const at = unit(random_word(seed, pattern_stage)) * static_cast<double>(patterns.size());
+    return patterns[std::min(static_cast<std::size_t>(at), patterns.size() - 1)];
+}
+
+Raster<float> uplift_pattern(Grid const& grid, UpliftPatternParams const& asked, Run const& run) {
+    check(asked);
+    UpliftPatternParams params = asked;
+    if (params.pattern == UpliftPattern::seed) {
+        params.pattern = uplift_pattern_of_seed(params.seed);
+    }
     double const strike = params.pattern == UpliftPattern::domes ? 0.0 : params.strike_deg * radians;
     Vec2 const along{portable::sin(strike), portable::cos(strike)};
     Vec2 const across{along.y, -along.x};

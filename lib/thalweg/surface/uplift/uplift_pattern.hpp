@@ -27,7 +27,8 @@ enum class UpliftPattern : std::uint8_t {
     tilt,   ///< it grows across the strike, from one side of the grid to the other
     domes,  ///< domes at random positions
     blocks, ///< blocks between faults along the strike, each tilted across it
-    folds   ///< anticlines and synclines along the strike
+    folds,  ///< anticlines and synclines along the strike
+    seed    ///< domes, blocks or folds, by the seed
 };
 
 /// Options of uplift_pattern().
@@ -43,6 +44,11 @@ struct UpliftPatternParams {
 /// \param seed random seed
 /// \return [degrees] (-90, 90] clockwise from north
 double random_strike_deg(std::uint64_t seed);
+
+/// The pattern that a seed chooses.
+/// \param seed random seed
+/// \return domes, blocks or folds, each as likely
+UpliftPattern uplift_pattern_of_seed(std::uint64_t seed);
 
 /// Draws uplift that varies over long distances.
 /// \param grid cells
