@@ -16,6 +16,7 @@
 #include <thalweg/measure/relief/slopes.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/measure/relief/swath.hpp>
+#include <thalweg/measure/relief/variety.hpp>
 #include <thalweg/measure/relief/wetness.hpp>
 #include <thalweg/measure/relief/zones.hpp>
 #include <thalweg/measure/rivers/profiles.hpp>

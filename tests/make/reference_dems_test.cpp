@@ -194,8 +194,9 @@ TEST(ReliefRows, APartOfRealLandIsLand) {
     for (ReliefRow const& row : rows) {
         EXPECT_EQ(row.beside.size(), measure::reference_dems().size()) << row.key;
         EXPECT_TRUE(row.value) << row.key;
-        bool const by_extent =
-            row.key.starts_with("length") || row.key == "gradient_anisotropy" || row.key == "level_patch";
+        bool const by_extent = row.key.starts_with("length") || row.key == "gradient_anisotropy" ||
+                               row.key == "level_patch" || row.key == "slope_spread" || row.key == "gentle_away" ||
+                               row.key == "half_way_height";
         if (!by_extent && row.key != "peaks") { // one peak in a thousand
             EXPECT_TRUE(row.ok()) << row.key << " " << *row.value;
         }
@@ -220,10 +221,13 @@ TEST(ReliefRows, NoiseIsNotLand) {
     EXPECT_FALSE(row_of(rows, "peaks").ok());
     EXPECT_TRUE(row_of(rows, "pits_over_peaks").ok()); // judges nothing
     EXPECT_GT(*row_of(rows, "pits_over_peaks").value, 0.8);
-    std::string const unlike = unusual_relief(rows, false);
-    EXPECT_TRUE(test::has(unlike, "gradient_correlation_720 ", "form_distance "));
-    EXPECT_FALSE(test::has(unlike, "peaks"));
-    EXPECT_EQ(unusual_relief(relief_rows(relief_of_sample("jacksboro_utm16.tif")), false), "");
+    UnlikeRealLand const unlike = unlike_real_land(rows, {});
+    EXPECT_TRUE(test::has(unlike.text, "hillsides are rougher", "gradient_correlation_720 ", "form_distance "));
+    EXPECT_EQ(unlike.text.find("hillsides"), unlike.text.rfind("hillsides")); // told once for both lags
+    EXPECT_TRUE(test::has(unlike.remedy, "lower surface.roughness"));
+    EXPECT_FALSE(test::has(unlike.text, "peaks"));
+    EXPECT_FALSE(test::has(unlike_real_land(rows, {.has_texture = false}).text, "hillsides"));
+    EXPECT_EQ(unlike_real_land(relief_rows(relief_of_sample("jacksboro_utm16.tif")), {}).text, "");
 }
 
 // What cannot be known is null, not a number and not a fault.

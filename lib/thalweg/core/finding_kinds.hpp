@@ -183,6 +183,10 @@ inline constexpr auto finding_rows = [] {
         {"land_below_rivers", warning, always, "1",
          "Much of the land lies lower than the river nearest to it: rivers stand on walls.",
          "Set surface.mean_slope, or --like DEM."},
+        {"heights_invented", note, always, "m^0.9",
+         "Nothing says how high the land is: its heights follow from a usual slope, and from a usual steepness of "
+         "rivers.",
+         "surface.relief or surface.like (--like DEM) give it the heights of the place."},
         {"like", note, always, "1", "What the terrain takes from the DEM of surface.like.", ""},
         {"links_without_room", warning, always, "links", "Links of a grown network found no room.",
          "Make the grid larger, or network.tokunaga.spacing or order smaller."},
@@ -239,7 +243,8 @@ inline constexpr auto finding_rows = [] {
          "Move these ridges off the rivers."},
         {"rivers_missing", warning, always, "m", "Length of the input rivers is not in the network.",
          "Layer secondary of network.gpkg holds what is missing, and says why."},
-        {"unusual_relief", warning, always, "", "Measures of the relief lie outside those of the reference DEMs.", ""},
+        {"unusual_relief", warning, always, "",
+         "The land has what real land has not: its texture, forms, canals or walls.", ""},
         // Faults of a network: check.
         {"bad_arc_id", error, verbose, "", "arc_id is below 1.", "Number the arcs from 1; check --fix does."},
         {"basin_mismatch", error, verbose, "", "basin_id differs within a basin, or is that of another one.",

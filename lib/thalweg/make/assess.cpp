@@ -76,18 +76,17 @@ std::vector<Check> surface_checks(recipe::Recipe const& recipe, Terrain const& t
     return checks;
 }
 
-/// Says what a reader of the hillshade would see: terrain in equilibrium whose texture is not that of land.
-void warn_of_texture(recipe::Recipe const& recipe, Terrain const& terrain, TerrainRelief const& relief,
-                     StageLog& stage_log) {
+/// Says what a reader of the hillshade would see: terrain in equilibrium that is not like land.
+void warn_of_relief(recipe::Recipe const& recipe, Terrain const& terrain, TerrainRelief const& relief,
+                    StageLog& stage_log) {
     constexpr std::int64_t least_cells = 250'000; // with fewer, randomness dominates
-    if (!terrain.ground.equilibrium() || terrain.grid.cells() < least_cells) {
+    if (!terrain.ground.equilibrium()) {
         return;
     }
-    std::string const outside = unusual_relief(relief_rows(relief), recipe::from_lines(recipe));
-    if (!outside.empty()) {
-        stage_log.find({.kind = "unusual_relief",
-                        .text = "measures of the relief lie outside those of the reference DEMs: " + outside,
-                        .remedy = "docs/relief_measures.md says what they mean"});
+    UnlikeRealLand const found =
+        unlike_real_land(relief_rows(relief), {terrain.grid.cells() >= least_cells, recipe::from_lines(recipe)});
+    if (!found.text.empty()) {
+        stage_log.find({.kind = "unusual_relief", .text = found.text, .remedy = found.remedy});
     }
 }
 
@@ -133,7 +132,7 @@ SurfaceMeasures of_surface(recipe::Recipe const& recipe, Terrain const& terrain,
     found.relief = stage_log.stage(recipe::stage::relief.name,
                                    [&] { return relief_of_terrain(recipe, terrain, *found.statistics, run); });
     return_small_blocks();
-    warn_of_texture(recipe, terrain, *found.relief, stage_log);
+    warn_of_relief(recipe, terrain, *found.relief, stage_log);
     if (recipe::stage::catchments.runs(recipe)) {
         found.catchments = stage_log.stage(recipe::stage::catchments.name,
                                            [&] { return flow::catchments(flow::reaches_of(network), drainage, run); });

@@ -40,15 +40,17 @@ TerrainRelief relief_of_dem(Raster<float> const& dem, Run const& run) {
 TerrainRelief relief_of_terrain(recipe::Recipe const& recipe, Terrain const& terrain,
                                 measure::Statistics const& statistics, Run const& run) {
     Raster<float> const& dem = terrain.ground.dem;
-    TerrainRelief found{measure::relief(dem, terrain.water.drainage, statistics, {}, run), std::nullopt};
-    double const asked = recipe.surface ? recipe.surface->equilibrium.mean_slope_deg.value_or(0.0) : 0.0;
-    double const mean_slope = (asked > 0.0 ? asked : found.land.slopes.mean_deg) * (portable::pi / 180.0);
-    if (recipe.network && !std::isnan(mean_slope)) {
-        std::vector<std::int64_t> cells =
-            terrain.bed.channels.cell; // side valleys grown by the terrain climb its slopes
+    std::vector<std::int64_t> cells;
+    if (recipe.network) {
+        cells = terrain.bed.channels.cell; // side valleys grown by the terrain climb its slopes
         if (!terrain.ground.equilibrium()) {
             append(cells, terrain.bed.valley.cell);
         }
+    }
+    TerrainRelief found{measure::relief(dem, terrain.water.drainage, statistics, cells, {}, run), std::nullopt};
+    double const asked = recipe.surface ? recipe.surface->equilibrium.mean_slope_deg.value_or(0.0) : 0.0;
+    double const mean_slope = (asked > 0.0 ? asked : found.land.slopes.mean_deg) * (portable::pi / 180.0);
+    if (recipe.network && !std::isnan(mean_slope)) {
         double const rise_m = portable::sin(mean_slope) / portable::cos(mean_slope) * dem.grid().cell_m;
         found.perched = static_cast<std::int64_t>(measure::perched(dem, cells, rise_m).size());
     }
@@ -89,24 +91,84 @@ std::vector<ReliefRow> relief_rows(TerrainRelief const& relief) {
                         {},
                         measure::ReliefRange{0.0, 0.0}});
     }
+    if (!std::isnan(relief.land.variety.wall)) {
+        rows.push_back({"wall",
+                        "drop beside the divide of the given rivers, over the drop elsewhere",
+                        "",
+                        relief.land.variety.wall,
+                        {},
+                        measure::ReliefRange{0.0, 1.5}});
+    }
     return rows;
 }
 
-std::string unusual_relief(std::vector<ReliefRow> const& rows, bool rivers_of_file) {
-    constexpr std::array<std::string_view, 8> of_texture = {"gradient_anisotropy",      "gradient_correlation_360",
-                                                            "gradient_correlation_720", "straight_run",
-                                                            "slope_area_ratio",         "level_patch",
-                                                            "valleys_over_ridges",      "form_distance"};
-    std::vector<std::string> words;
-    for (ReliefRow const& row : rows) {
-        bool const told = std::find(of_texture.begin(), of_texture.end(), row.key) != of_texture.end() &&
-                          !(rivers_of_file && row.key == "straight_run");
-        if (told && !row.ok()) {
-            words.push_back(
-                fmt::format("{} {:.3g} ({:.3g} to {:.3g})", row.key, *row.value, row.range->low, row.range->high));
-        }
+namespace {
+
+/// What it means when an index is below or above its range, and what changes that.
+struct Meaning {
+    std::string_view key;
+    bool of_texture;
+    std::string_view low; ///< "": no fault
+    std::string_view low_remedy;
+    std::string_view high;
+    std::string_view high_remedy;
+};
+
+constexpr std::array<Meaning, 11> meanings = {{
+    {"gradient_anisotropy", true, "ridges have no direction", "raise surface.grain", "all ridges are parallel",
+     "lower surface.grain"},
+    {"gradient_correlation_360", true, "hillsides are rougher", "lower surface.roughness", "hillsides are smoother",
+     "raise surface.roughness"},
+    {"gradient_correlation_720", true, "hillsides are rougher", "lower surface.roughness", "hillsides are smoother",
+     "raise surface.roughness"},
+    {"straight_run", true, "", "", "a channel runs straight for longer", "raise network.meander, or try another seed"},
+    {"slope_area_ratio", true, "rivers are gentler beside their hillsides", "lower network.concavity",
+     "rivers are steeper beside their hillsides", "raise network.concavity"},
+    {"level_patch", true, "there is less level ground",
+     "raise surface.floor_width, or vary uplift: surface.uplift_pattern", "more of the land is one plain",
+     "raise surface.mean_slope"},
+    {"valleys_over_ridges", true, "there are more ridges than valleys", "lower surface.hillslope",
+     "there are more valleys than ridges", "raise surface.hillslope"},
+    {"form_distance", true, "", "", "other forms of the land are frequent",
+     "docs/relief_measures.md says which are counted"},
+    {"canals", false, "", "", "rivers run between steep banks, as in canals",
+     "smaller cells (grid.cell) or less mean slope make them fewer"},
+    {"steepest_drop", true, "", "", "there are walls: drops over 1 km far above the usual ones",
+     "lower surface.relief, surface.mean_slope or surface.uplift_contrast"},
+    {"wall", true, "", "", "the land falls as a wall beside the divide of the rivers",
+     "give the rivers heights, or lower surface.relief"},
+}};
+
+void add_once(std::vector<std::string_view>& words, std::string_view one) {
+    if (std::find(words.begin(), words.end(), one) == words.end()) {
+        words.push_back(one);
     }
-    return fmt::format("{}", fmt::join(words, ", "));
+}
+
+} // namespace
+
+UnlikeRealLand unlike_real_land(std::vector<ReliefRow> const& rows, ComparedRelief const& compared) {
+    std::vector<std::string_view> faults;
+    std::vector<std::string_view> remedies;
+    std::vector<std::string> figures;
+    for (Meaning const& meaning : meanings) {
+        auto const row =
+            std::find_if(rows.begin(), rows.end(), [&](ReliefRow const& r) { return r.key == meaning.key; });
+        if (row == rows.end() || row->ok() || (meaning.of_texture && !compared.has_texture) ||
+            (compared.rivers_of_file && meaning.key == "straight_run")) {
+            continue;
+        }
+        bool const is_low = *row->value < row->range->low;
+        add_once(faults, is_low ? meaning.low : meaning.high);
+        add_once(remedies, is_low ? meaning.low_remedy : meaning.high_remedy);
+        figures.push_back(fmt::format("{} {:.3g}, real land {:.3g} to {:.3g}", row->key, *row->value, row->range->low,
+                                      row->range->high));
+    }
+    if (faults.empty()) {
+        return {};
+    }
+    return {fmt::format("unlike real land, {} ({})", fmt::join(faults, "; "), fmt::join(figures, "; ")),
+            fmt::format("To change that: {}", fmt::join(remedies, "; "))};
 }
 
 namespace {

@@ -67,12 +67,22 @@ struct ReliefRow {
 /// \return in a fixed order
 std::vector<ReliefRow> relief_rows(TerrainRelief const& relief);
 
+/// What a terrain has that real land does not, and what changes that; "": nothing.
+struct UnlikeRealLand {
+    std::string text;
+    std::string remedy;
+};
+
+/// What of a terrain is compared with real land.
+struct ComparedRelief {
+    bool has_texture = true;     ///< texture and forms, which randomness dominates on few cells
+    bool rivers_of_file = false; ///< drawn as in a file, so that their straight parts are not the terrain's
+};
+
 /// \internal
-/// Describes the indices of texture and forms outside the range of the reference DEMs.
+/// Describes in words the indices of texture, forms, canals and walls outside the range of the reference DEMs.
 /// \param rows indices
-/// \param rivers_of_file rivers are drawn as in a file, so that their straight parts are not the terrain's
-/// \return "": all are inside
-std::string unusual_relief(std::vector<ReliefRow> const& rows, bool rivers_of_file);
+UnlikeRealLand unlike_real_land(std::vector<ReliefRow> const& rows, ComparedRelief const& compared);
 
 /// \internal
 /// Formats the relief with the reference DEMs as one JSON object: dem.relief in report.json, and the data of the page's

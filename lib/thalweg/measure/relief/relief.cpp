@@ -28,13 +28,19 @@ double density(flow::FlowField const& drainage, std::int64_t cells, std::int64_t
     return length.value() / (static_cast<double>(cells) * cell_m * cell_m);
 }
 
-constexpr double wide = 1.5;   // regions differ more than the two reference DEMs
-constexpr double wider = 2.0;  // finer textures are common
-constexpr double widest = 5.0; // one plain is enough to change it
+constexpr double wide = 1.5;     // regions differ more than the two reference DEMs
+constexpr double wider = 2.0;    // finer textures are common
+constexpr double widest = 5.0;   // one plain is enough to change it
+constexpr double ten_dems = 1.0; // wide_references: they are of ten kinds of land
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 double over(std::int64_t a, std::int64_t b) {
     return b > 0 ? static_cast<double>(a) / static_cast<double>(b) : unknown;
+}
+
+double interquartile(Relief const& relief) {
+    auto const& at = relief.slopes.percentile_deg;
+    return (at[4] - at[2]) / at[3];
 }
 
 constexpr std::array<ReliefMetric, relief_metric_count> figures = {{
@@ -93,9 +99,21 @@ constexpr std::array<ReliefMetric, relief_metric_count> figures = {{
      [](Relief const& r) { return r.orometry.median_prominence_m; }},
     {"isolation", "isolation of these, median", "m", Judges::yes,
      [](Relief const& r) { return r.orometry.median_isolation_m; }},
+    {"slope_spread", "mean slope in windows of 3 km, deviation", "°", Judges::yes,
+     [](Relief const& r) { return r.variety.slope_spread_deg; }, ten_dems},
+    {"slope_iqr", "slope, interquartile range over median", "", Judges::yes, interquartile, ten_dems},
+    {"gentle_away", "land below 4° away from rivers", "%", Judges::yes,
+     [](Relief const& r) { return 100.0 * r.variety.gentle_away_share; }, ten_dems},
+    {"half_way_height", "height of main stems half-way, over their source", "", Judges::yes,
+     [](Relief const& r) { return r.variety.half_way_height; }, ten_dems},
+    {"canals", "river cells between steep banks", "%", Judges::large_values,
+     [](Relief const& r) { return 100.0 * r.variety.canal_share(); }, ten_dems, 0.1},
+    {"steepest_drop", "greatest drops over 1 km, over the 90th percentile", "", Judges::large_values,
+     [](Relief const& r) { return r.variety.steepest_drop; }, ten_dems},
 }};
 
 #include <thalweg/measure/relief/internal/reference_dems.inc>
+#include <thalweg/measure/relief/internal/wide_references.inc>
 
 constexpr std::array<NaturalRange, 9> ranges = {{
     {"bifurcation", 3.0, 5.0, "Strahler 1964: basins whose pattern the rock does not distort"},
@@ -117,6 +135,11 @@ constexpr std::array<NaturalRange, 9> ranges = {{
 
 Relief relief(Raster<float> const& dem, flow::FlowField const& drainage, Statistics const& statistics,
               ReliefParams const& params, Run const& run) {
+    return relief(dem, drainage, statistics, std::span<std::int64_t const>(), params, run);
+}
+
+Relief relief(Raster<float> const& dem, flow::FlowField const& drainage, Statistics const& statistics,
+              std::span<std::int64_t const> rivers, ReliefParams const& params, Run const& run) {
     refuse_if<BadInput>(statistics.cells + statistics.nodata != dem.cells(), "measure.relief",
                         "statistics of {} cells for a DEM of {}; measure this DEM",
                         statistics.cells + statistics.nodata, dem.cells());
@@ -145,6 +168,7 @@ Relief relief(Raster<float> const& dem, flow::FlowField const& drainage, Statist
     found.straight = straight_channels(drainage, params.straight, run);
     found.level_patch = level_patch(dem, params.level_patch, run);
     found.orometry = orometry(dem, params.orometry, run);
+    found.variety = variety(dem, drainage, rivers, params.variety, run);
     return found;
 }
 
@@ -175,13 +199,15 @@ std::array<double, form_count> mean_forms() {
 }
 
 ReliefRange relief_range(std::size_t figure) {
-    auto const [least, greatest] =
-        std::minmax_element(lands.begin(), lands.end(), [&](ReferenceDem const& a, ReferenceDem const& b) {
-            return a.figures[figure] < b.figures[figure];
-        });
     ReliefMetric const& metric = relief_metrics()[figure];
-    return {metric.judges == Judges::large_values ? 0.0 : least->figures[figure] / metric.tolerance,
-            greatest->figures[figure] * metric.tolerance};
+    auto const range = [&](auto const& dems, std::size_t at) {
+        auto const [least, greatest] = std::minmax_element(
+            dems.begin(), dems.end(), [&](auto const& a, auto const& b) { return a.figures[at] < b.figures[at]; });
+        return ReliefRange{metric.judges == Judges::large_values ? 0.0 : least->figures[at] / metric.tolerance,
+                           greatest->figures[at] * metric.tolerance + metric.margin};
+    };
+    constexpr std::size_t first_wide = relief_metric_count - wide_metric_count;
+    return figure < first_wide ? range(lands, figure) : range(wide_lands, figure - first_wide);
 }
 
 std::span<NaturalRange const> natural_ranges() {

@@ -18,6 +18,7 @@
 #include <thalweg/measure/relief/slope_area.hpp>
 #include <thalweg/measure/relief/slopes.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
+#include <thalweg/measure/relief/variety.hpp>
 #include <thalweg/measure/texture/texture.hpp>
 
 // Idea: Whether terrain looks natural is decided by many indices together: terrain from noise
@@ -63,6 +64,7 @@ struct Relief {
     StraightChannels straight;
     LevelPatch level_patch;
     Orometry orometry;
+    Variety variety;
 };
 
 /// Options of relief().
@@ -76,6 +78,7 @@ struct ReliefParams {
     StraightChannelsParams straight = {};
     LevelPatchParams level_patch = {};
     OrometryParams orometry = {};
+    VarietyParams variety = {};
 };
 
 /// Computes the morphometric indices of a DEM. Valley forms: hollow, footslope, valley, pit; ridge forms: peak, ridge,
@@ -88,6 +91,16 @@ struct ReliefParams {
 /// \throws BadInput when the three belong to different DEMs
 Relief relief(Raster<float> const& dem, flow::FlowField const& drainage, Statistics const& statistics,
               ReliefParams const& params = {}, Run const& run = {});
+
+/// Computes the morphometric indices of a DEM with given rivers, which decide what lies away from rivers, which cells
+/// are canals, and whether there is a wall.
+/// \param dem,drainage,statistics as relief without rivers
+/// \param rivers indices of the rivers' cells; empty: the DEM's own streams
+/// \return the same bits for any number of threads
+/// \throws BadParameter as relief without rivers
+/// \throws BadInput as relief without rivers, and for a cell outside the DEM
+Relief relief(Raster<float> const& dem, flow::FlowField const& drainage, Statistics const& statistics,
+              std::span<std::int64_t const> rivers, ReliefParams const& params = {}, Run const& run = {});
 
 /// The total variation distance of two distributions of landforms.
 /// \param a,b [0, 1] shares by form
@@ -105,9 +118,10 @@ struct ReliefMetric {
     Judges judges = Judges::yes;           ///< no: it depends on the extent or on the survey of heights
     double (*of)(Relief const&) = nullptr; ///< NaN: unknown
     double tolerance = 1.25;               ///< [1, ...] margin around the reference DEMs: two are not all terrain
+    double margin = 0.0;                   ///< [unit] >= 0 added to the higher end
 };
 
-inline constexpr std::size_t relief_metric_count = 30;
+inline constexpr std::size_t relief_metric_count = 36;
 
 /// The metrics compared with reference DEMs.
 /// \return in a fixed order

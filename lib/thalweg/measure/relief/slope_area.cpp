@@ -16,6 +16,7 @@
 #include <thalweg/core/same_grid.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/measure/relief/internal/horn.hpp>
+#include <thalweg/measure/relief/internal/main_stems.hpp>
 
 namespace thalweg::measure {
 namespace {
@@ -69,38 +70,6 @@ void check(ChiParams const& params, Raster<float> const& dem, flow::FlowField co
     require_in(self, "most_stems", params.most_stems, Range::at_least(1));
     require_same_grid(dem.grid(), drainage.direction.grid(), "measure.chi", "the DEM and its drainage",
                       "drain this DEM");
-}
-
-/// Cells where rivers leave the DEM, in descending order of contributing area.
-std::vector<std::int64_t> mouths(flow::FlowField const& drainage, ChiParams const& params) {
-    std::vector<std::int64_t> all;
-    for (std::int64_t i = 0; i < drainage.direction.cells(); ++i) {
-        if (drainage.direction[i] == flow::Direction::leaves && drainage.area_cells[i] >= params.support_cells) {
-            all.push_back(i);
-        }
-    }
-    std::sort(all.begin(), all.end(), [&](std::int64_t a, std::int64_t b) {
-        return drainage.area_cells[a] != drainage.area_cells[b] ? drainage.area_cells[a] > drainage.area_cells[b]
-                                                                : a < b;
-    });
-    return all;
-}
-
-/// The direction to the neighbour with the largest contributing area among donors; -1: none.
-int main_donor(flow::FlowField const& drainage, Cell cell) {
-    int best = -1;
-    std::int64_t most = 0;
-    for (std::size_t k = 0; k < d8_steps.size(); ++k) {
-        Cell const from{cell.col + d8_steps[k].col, cell.row + d8_steps[k].row};
-        if (!drainage.direction.grid().contains(from) || drainage.direction[from] != opposite(flow::direction_of(k))) {
-            continue;
-        }
-        if (drainage.area_cells[from] > most) {
-            most = drainage.area_cells[from];
-            best = static_cast<int>(k);
-        }
-    }
-    return best;
 }
 
 /// Chi and height along the stem upstream of a mouth.
@@ -189,7 +158,7 @@ std::optional<Chi> chi(Raster<float> const& dem, flow::FlowField const& drainage
     found.theta = params.theta;
     CompensatedSum explained;
     CompensatedSum all;
-    for (std::int64_t const mouth : mouths(drainage, params)) {
+    for (std::int64_t const mouth : mouths(drainage, params.support_cells)) {
         run.check();
         if (found.stems == params.most_stems) {
             break;
