@@ -5,9 +5,10 @@
 
 Measured again without thalweg: geomorphons by GRASS (r.geomorphon search=15 skip=0 flat=1, 15 cells of border left out) of
 dem.tif and of the two real DEMs in samples/; slopes and aspects by gdaldem; slope against area along the D8 directions of
-GRASS (r.watershed -s), and how straight they run; pits, peaks and perched river cells (of network.tif), the correlation and the
+GRASS (r.watershed -s), how straight they run, and how high main stems stand half-way; pits, peaks, perched river cells and
+canals (of network.tif), the spread of slopes in windows, drops over a kilometre, the correlation and the
 anisotropy of gradients by numpy. Each is held against report.json. --bars
-asks that the land is like land: concavity within 0.05 of theta, mean slope within 10 % of slope [degrees], valley over ridge cells
+asks that the land is like land: concavity (of slopes over uplift.tif, if there is one) within 0.05 of theta, mean slope within 10 % of slope [degrees], valley over ridge cells
 0.8 to 1.25, geomorphons within forms (total variation) of the mean of the real DEMs, aspects along the grid's eight directions
 within 15 % of even, no perched river cell.
 Prints one JSON line and exits with 1 on any violation, 2 when there is nothing to check."""
@@ -169,6 +170,63 @@ def perched(z, mask, rise):
     return int((mask & (z - lowest > rise)).sum())
 
 
+def windows_of(slopes, cell, side_m=3000):
+    """Standard deviation of the mean slopes of square windows that are at least half full."""
+    side = max(round(side_m / cell), 1)
+    means = []
+    for row in range(0, slopes.shape[0], side):
+        for column in range(0, slopes.shape[1], side):
+            window = slopes[row : row + side, column : column + side]
+            here = window[np.isfinite(window)]
+            if 2 * here.size >= side * side:
+                means.append(here.mean())
+    return float(np.std(means)) if len(means) >= 4 else None
+
+
+def half_way_height(flow, z, cell, stream_m2=1e6, least=50, most=20):
+    """Median over main stems: height half-way above the mouth, over that of the source."""
+    area, _, way, below, towards = flow
+    support, heights = np.ceil(stream_m2 / cell**2), z.ravel()
+    donors = {}
+    for at in np.flatnonzero((area >= support) & (below >= 0)):
+        if below[at] not in donors or area[at] > area[donors[below[at]]]:
+            donors[below[at]] = at
+    shares = []
+    for mouth in sorted(np.flatnonzero((area >= support) & (below < 0)), key=lambda at: -area[at]):
+        stem, length = [mouth], [0.0]
+        while stem[-1] in donors:
+            stem.append(donors[stem[-1]])
+            length.append(length[-1] + way[stem[-1]])
+        up = heights[stem]
+        if len(stem) >= least and up[-1] > up[0] and len(shares) < most:
+            shares.append((np.interp(length[-1] / 2, length, up) - up[0]) / (up[-1] - up[0]))
+    return float(np.median(shares)) if shares else None
+
+
+def canals(z, mask, cell):
+    """Share of river cells whose lowest neighbour that is no river cell stands more than a cell's size above them, in percent."""
+    bank = minimum_filter(np.where(mask | np.isnan(z), np.inf, z), size=3, mode="constant", cval=np.inf)
+    river = mask & np.isfinite(z)
+    return float(100 * (river & np.isfinite(bank) & (bank - z > cell)).sum() / river.sum()) if river.any() else None
+
+
+def steepest_drop(z, cell, over_m=1000):
+    """Drop to the lowest of 16 places a kilometre away, 99.9th over 90th percentile."""
+    radius, step = over_m / cell, max(int(over_m / cell / 10), 1)
+    if min(z.shape) * cell < 2 * over_m:
+        return None
+    reach = int(np.ceil(radius)) + 1
+    wide = np.pad(z, reach, constant_values=np.nan)
+    lowest = z.copy()
+    for k in range(16):
+        down, right = (int(np.floor(abs(x) + 0.5) * np.sign(x)) for x in (radius * np.sin(k * np.pi / 8), radius * np.cos(k * np.pi / 8)))
+        lowest = np.fmin(lowest, wide[reach + down : reach + down + z.shape[0], reach + right : reach + right + z.shape[1]])
+    drop = (z - lowest)[::step, ::step]
+    drop = drop[np.isfinite(drop)]
+    high, usual = np.percentile(drop, (99.9, 90))
+    return float(high / usual) if usual > 0 else None
+
+
 def extremes(z):
     around = np.ones((3, 3), bool)
     around[1, 1] = False
@@ -193,6 +251,11 @@ def measured(folder, dem, report):
         flow = drainage_of(grass, place, z, cell)
         slopes, aspects = gdaldem("slope", dem, place), gdaldem("aspect", dem, place)
     found["theta"], found["slope_area_ratio"] = concavity(flow, cell), slope_area_ratio(flow, slopes)
+    found["theta_of_uplift"] = found["theta"]  # what the slopes have in common where uplift differs
+    if (folder / "uplift.tif").exists():
+        area, drop, *rest = flow
+        found["theta_of_uplift"] = concavity((area, drop / heights(folder / "uplift.tif")[0].ravel(), *rest), cell)
+    found["half_way_height"] = half_way_height(flow, z, cell)
     found["straight_run"], found["straight_share"] = straightness(flow, z.shape[1])
     unit = units(z)
     for lag in (360, 720, 1440):
@@ -201,6 +264,9 @@ def measured(folder, dem, report):
     found["level_patch"] = level_patch(z, slopes)
     slope, aspect = slopes[np.isfinite(slopes)], aspects[np.isfinite(aspects)]
     found["slope_mean"] = float(slope.mean())
+    found["slope_spread"], found["steepest_drop"] = windows_of(slopes, cell), steepest_drop(z, cell)
+    low, middle, high = np.percentile(slope, (25, 50, 75))
+    found["slope_iqr"] = float((high - low) / middle) if middle > 0 else None
     for percent in (5, 50, 95):
         found[f"slope_p{percent}"] = float(np.percentile(slope, percent))
     tangent = np.tan(np.radians(slope))
@@ -209,7 +275,11 @@ def measured(folder, dem, report):
     found["pits"], found["peaks"] = extremes(z)
     found["rivers"] = gdal.Open(str(mask)).ReadAsArray() == 1 if mask.exists() else None
     if found["rivers"] is not None and found["rivers"].any():
-        found["river_distance"] = float(np.median(distance_transform_edt(~found["rivers"])[np.isfinite(z)])) * cell
+        to_river = distance_transform_edt(~found["rivers"]) * cell
+        found["river_distance"] = float(np.median(to_river[np.isfinite(z)]))
+        found["canals"] = canals(z, found["rivers"], cell)
+        with np.errstate(invalid="ignore"):
+            found["gentle_away"] = float(100 * ((slopes < 4) & (to_river > 240)).sum() / slope.size)
     return found, z, cell
 
 
@@ -217,8 +287,9 @@ def measured(folder, dem, report):
 WITHIN = {"slope_mean": 0.01, "slope_p5": 0.03, "slope_p50": 0.03, "slope_p95": 0.03, "slope_cv": 0.002, "form_distance": 0.005,
           "valleys_over_ridges": 0.02, "aspects_along_grid": 0.01, "aspects_on_grid": 0.03, "theta": 0.03,
           "slope_area_ratio": 0.02, "gradient_correlation_360": 1e-4, "gradient_correlation_720": 1e-4,
-          "gradient_correlation_1440": 1e-4, "gradient_anisotropy": 2e-3, "level_patch": 0.05, "straight_run": 6, "straight_share": 0.02}
-BY_DRAINAGE = ("theta", "slope_area_ratio", "straight_run", "straight_share")
+          "gradient_correlation_1440": 1e-4, "gradient_anisotropy": 2e-3, "level_patch": 0.05, "straight_run": 6, "straight_share": 0.02,
+          "slope_spread": 0.02, "slope_iqr": 0.005, "half_way_height": 0.03, "steepest_drop": 0.05}
+BY_DRAINAGE = ("theta", "slope_area_ratio", "straight_run", "straight_share", "half_way_height")
 
 
 def held_against_report(found, relief, recipe, z, cell, drained, report):
@@ -234,6 +305,10 @@ def held_against_report(found, relief, recipe, z, cell, drained, report):
     report.unless(distance <= 0.003, "forms", f"{distance} apart")
     report.equal("pits", relief["extremes"]["pits"], found["pits"])
     report.equal("peaks", relief["extremes"]["peaks"], found["peaks"])
+    for key, tolerance in (("canals", 0.01), ("gentle_away", 0.02)):
+        if key in found and not recipe.get("network", {}).get("fill_space"):  # network.tif has the side valleys, too
+            ours = relief["figures"][key]["value"]
+            report.unless(abs(ours - found[key]) <= tolerance, key, f"{ours}, not {found[key]}")
     if found["rivers"] is not None:
         asked = recipe.get("surface", {}).get("mean_slope") or found["slope_mean"]
         found["perched"] = perched(z, found["rivers"], np.tan(np.radians(asked)) * cell)
@@ -245,7 +320,8 @@ def held_against_report(found, relief, recipe, z, cell, drained, report):
 def meets(bars, found, report):
     theta, slope = float(bars["theta"]), float(bars["slope"])
     ratio = found["valleys_over_ridges"]
-    report.unless(found["theta"] is not None and abs(found["theta"] - theta) <= 0.05, "bar_theta", f"{found['theta']}, not {theta}")
+    of_uplift = found["theta_of_uplift"]
+    report.unless(of_uplift is not None and abs(of_uplift - theta) <= 0.05, "bar_theta", f"{of_uplift}, not {theta}")
     report.unless(abs(found["slope_mean"] / slope - 1) <= 0.1, "bar_slope", f"{found['slope_mean']}, not {slope}")
     report.unless(ratio is not None and 0.8 <= ratio <= 1.25, "bar_valleys_over_ridges", ratio)
     report.unless(found["form_distance"] <= float(bars["forms"]), "bar_form_distance", found["form_distance"])

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/make/make.hpp>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,9 @@
 #include <support.hpp>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/report/report.hpp>
+#include <thalweg/surface/uplift/uplift_pattern.hpp>
 
 namespace make_test {
 
@@ -123,6 +126,27 @@ TEST(MakeFolder, LeavesNothingWhenItIsStoppedWhileItWrites) {
         EXPECT_THROW(make_folder(recipe, scratch / "out", io::Existing::refuse, run), Cancelled);
         EXPECT_EQ(scratch.entries(), 0);
     }
+}
+
+// uplift.tif is the pattern times the raster that the terrain was made with, and 1 where uplift is the same everywhere.
+TEST(OutputFiles, UpliftOfTheTerrain) {
+    ScratchFolder const scratch;
+    Recipe recipe = recipe_of_text(rivers_of + "[surface]\n[output]\nuplift = true\nfiles = [\"dem\"]\n");
+    make_folder(recipe, scratch / "even");
+    Raster<float> const even = io::read_dem(scratch / "even/uplift.tif");
+    EXPECT_TRUE(std::all_of(even.values().begin(), even.values().end(), [](float u) { return u == 1.0F; }));
+    set_key(recipe, "surface.uplift_pattern=seed");
+    set_key(recipe, "surface.uplift_contrast=6");
+    make_folder(recipe, scratch / "pattern");
+    Raster<float> const found = io::read_dem(scratch / "pattern/uplift.tif");
+    Raster<float> const asked =
+        surface::uplift_pattern(found.grid(), {.pattern = surface::UpliftPattern::seed,
+                                               .contrast = 6.0,
+                                               .strike_deg = surface::random_strike_deg(recipe.seed),
+                                               .seed = recipe.seed});
+    EXPECT_TRUE(std::equal(found.values().begin(), found.values().end(), asked.values().begin()));
+    set_key(recipe, "surface.method=dilate");
+    EXPECT_TRUE(test::has(test::message_of([&] { check_recipe(recipe); }), "output.uplift"));
 }
 
 TEST(OutputFiles, AreThoseThatAreAskedFor) {

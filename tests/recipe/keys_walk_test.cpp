@@ -185,6 +185,7 @@ std::map<std::string, Words> const values = {
     {"surface.max_cut", {"200"}},
     {"surface.source", {"other_hills.asc"}},
     {"surface.mean_slope", {"12"}},
+    {"surface.steepness", {"5"}},
     {"network.forest.outlet_spacing", {"25"}},
     {"surface.hillslope", {"120"}},
     {"surface.debris_area", {"0.5"}},

@@ -373,6 +373,9 @@ std::vector<std::string> facts_of(MapSheet const& sheet, MapParams const& params
         facts.push_back(fmt::format("{} to {} m", height_in_words(heights.low_m, heights),
                                     height_in_words(heights.high_m, heights)));
     }
+    if (!params.remark.empty()) {
+        facts.push_back(params.remark);
+    }
     return facts;
 }
 

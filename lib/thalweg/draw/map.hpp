@@ -61,6 +61,7 @@ struct MapParams {
     int width_px = 1400;             ///< [200, 8000] of the whole sheet; its height follows
     double contour_interval_m = 0.0; ///< for the legend, every fifth is drawn heavier; 0: no contours
     Format format = Format::png;
+    std::string remark = {}; ///< UTF-8: written after the grid's facts; "": none
 };
 
 /// The sea of a map: its cells without a height.

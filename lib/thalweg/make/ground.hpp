@@ -9,8 +9,10 @@
 
 #include <thalweg/core/features.hpp>
 #include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/core/tin.hpp>
 #include <thalweg/fractal/match_statistics.hpp>
+#include <thalweg/recipe/recipe.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 
 namespace thalweg::make {
@@ -59,6 +61,7 @@ struct Equilibrium {
     double max_lowered_m = 0.0;               ///< soft: below the input heights
     double p95_lowered_m = 0.0;
     double rise = 0.0;
+    double steepness = 0.0; ///< [m^0.9] normalised, of the main stems; NaN: not graded
     bool in_region = false;
     std::vector<surface::RegionInflow> inflows = {};
     std::optional<LikeStatistics> like = {}; ///< where surface.like is set
@@ -112,5 +115,19 @@ struct Ground {
     /// \return how it was dilated; without increments: it was not
     ByDilation const& dilated() const;
 };
+
+/// Whether a terrain's heights follow from nothing that was given: around rivers of a file without heights, with
+/// neither surface.relief nor surface.like.
+/// \param recipe resolved
+bool heights_are_invented(recipe::Recipe const& recipe);
+
+/// What files and pictures of such a terrain say.
+inline constexpr char const* invented_heights = "heights are invented: surface.relief or surface.like give others";
+
+/// The uplift of terrain in equilibrium: of the recipe's raster times its pattern.
+/// \param recipe with a surface in equilibrium
+/// \return > 0 by cell, only ratios count; without cells where uplift is the same everywhere
+/// \throws Error where the raster cannot be read or does not cover the grid
+Raster<float> relative_uplift(recipe::Recipe const& recipe, Grid const& grid, Run const& run = {});
 
 } // namespace thalweg::make

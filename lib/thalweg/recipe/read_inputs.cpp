@@ -76,7 +76,8 @@ void warn_of_crowding(network::ChosenCell const& chosen, StageLog& stage_log) {
          .key = "grid.cell"});
 }
 
-/// A recipe with a mean slope, if it has neither one nor a relief, and the rivers have no heights.
+/// A recipe with a mean slope and a bound on the steepness of rivers, if nothing says how high the terrain is, and the
+/// rivers have no heights.
 Recipe with_slope(Recipe recipe, bool has_z) {
     if (!in_equilibrium(recipe)) {
         return recipe;
@@ -85,9 +86,11 @@ Recipe with_slope(Recipe recipe, bool has_z) {
     bool const graded = heights == Heights::graded || (heights == Heights::automatic && !has_z);
     EquilibriumRecipe& wanted = recipe.surface->equilibrium;
     double const usual = usual_slope_deg(recipe.grid.cell_m);
-    if (graded && !wanted.mean_slope_deg && wanted.like.empty() && !(recipe.surface->dilate.relief_m > 0.0) &&
-        usual != surface::EquilibriumParams{}.mean_slope_deg) {
-        wanted.mean_slope_deg = usual;
+    if (graded && !wanted.mean_slope_deg && wanted.like.empty() && !(recipe.surface->dilate.relief_m > 0.0)) {
+        wanted.steepness = wanted.steepness.value_or(usual_steepness);
+        if (usual != surface::EquilibriumParams{}.mean_slope_deg) {
+            wanted.mean_slope_deg = usual;
+        }
     }
     return recipe;
 }

@@ -101,6 +101,10 @@ OnRaster settle_on_raster(Recipe const& recipe, Run const& run);
 /// slopes of Big Tujunga averaged to cells of 75 to 1200 m.
 double usual_slope_deg(double cell_m);
 
+/// The greatest steepness of the main stems of a file's rivers without heights, where nothing else says how high the
+/// terrain is: about the median of the DEMs of docs/relief_measures.md.
+inline constexpr double usual_steepness = 45.0; ///< [m^0.9] for a concavity of 0.45
+
 /// Throws BadInput if a file's coordinates are known not to be metres. grid: read from the file at path;
 /// where: "commands.run_points", the function that asks.
 void require_metres(Grid const& grid, std::string const& path, char const* where);

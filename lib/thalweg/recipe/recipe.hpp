@@ -141,6 +141,7 @@ struct NetworkRecipe {
 /// What a land in equilibrium is like, beside surface.relief and network.concavity.
 struct EquilibriumRecipe {
     std::optional<double> mean_slope_deg; ///< none: 25, where no relief is asked
+    std::optional<double> steepness;      ///< [m^0.9] none: 45 around rivers of a file without heights, slope or relief
     double hillslope_m = 15.0;            ///< [m] this and what follows as surface::EquilibriumParams
     double debris_area_km2 = 0.045;
     double floor_width = 0.04; ///< [0, 1] 0.04: floors 17 m wide where 1 km² drains, in proportion
@@ -268,6 +269,7 @@ struct OutputRecipe {
     double contour_interval = 0.0;                      ///< [units] 0 chooses a round number
     bool catchments = true;                             ///< of the arcs, where there are rivers and a surface
     bool accumulation = false;                          ///< contributing areas by cell, where there is a surface
+    bool uplift = false;                                ///< relative uplift by cell, of terrain in equilibrium
     io::Schema schema = io::Schema::native;             ///< another one: a network file more, in its words
     HeightUnit units = HeightUnit::metre;               ///< of heights in dem.tif, networks, contours and TINs
     std::optional<std::vector<OutputFiles>> files = {}; ///< in the order of the enumeration; nothing: all

@@ -8,10 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include <thalweg/draw/map.hpp>
 #include <thalweg/io/qgis/project.hpp>
 #include <thalweg/io/qgis/styles.hpp>
 #include <thalweg/make/file_values.hpp>
+#include <thalweg/make/ground.hpp>
 #include <thalweg/report/internal/qgis_files.hpp>
 #include <thalweg/report/landmarks.hpp>
 
@@ -133,7 +136,8 @@ void write_qgis_files(make::MakeResult const& made, std::string const& title, io
         }
     }
     io::QgisProject project;
-    project.title = title;
+    project.title =
+        make::heights_are_invented(made.recipe) ? fmt::format("{} ({})", title, make::invented_heights) : title;
     project.layers = layers.take();
     project.extent = made.terrain.grid;
     project.background = has_sea ? sea_colour : "#ffffff";

@@ -434,16 +434,19 @@ void add_statistics(make::MakeResult const& t, ordered_json& report) {
     make::Ground const& ground = t.terrain.ground;
     if (make::Equilibrium const* const found = ground.equilibrium()) {
         make::Equilibrium const& e = *found;
-        report["equilibrium"] = {{"channel_cells", e.channel_cells},
-                                 {"lakes", t.terrain.bed.lakes},
-                                 {"shortened_cells", e.shortened_cells},
-                                 {"walled_cells", e.walled_cells},
-                                 {"lowered", {{"max_m", e.max_lowered_m}, {"p95_m", e.p95_lowered_m}}},
-                                 {"rise", e.rise},
-                                 {"side_valleys", t.terrain.bed.grown},
-                                 {"side_valleys_left_out", t.terrain.bed.left_out},
-                                 {"in_region", e.in_region},
-                                 {"inflows", ordered_json::parse(inflows_json(t.terrain.grid, e.inflows))}};
+        report["equilibrium"] = {
+            {"channel_cells", e.channel_cells},
+            {"lakes", t.terrain.bed.lakes},
+            {"shortened_cells", e.shortened_cells},
+            {"walled_cells", e.walled_cells},
+            {"lowered", {{"max_m", e.max_lowered_m}, {"p95_m", e.p95_lowered_m}}},
+            {"rise", e.rise},
+            {"steepness", std::isnan(e.steepness) ? ordered_json(nullptr) : ordered_json(e.steepness)},
+            {"heights_invented", make::heights_are_invented(t.recipe)},
+            {"side_valleys", t.terrain.bed.grown},
+            {"side_valleys_left_out", t.terrain.bed.left_out},
+            {"in_region", e.in_region},
+            {"inflows", ordered_json::parse(inflows_json(t.terrain.grid, e.inflows))}};
         if (e.like) {
             report["equilibrium"]["like"] = {{"mean_slope_deg", e.like->mean_slope_deg},
                                              {"lag_m", e.like->lag_m},

@@ -137,6 +137,13 @@ void write_areas(make::WaterAreas const& areas, io::OutputFolder const& out, Run
     io::write_field(areas.dinf, out.path("area_dinf.tif"), run);
 }
 
+void write_uplift(make::MakeResult const& t, io::OutputFolder const& out, Run const& run) {
+    Raster<float> const uplift = make::relative_uplift(t.recipe, t.terrain.grid, run);
+    Raster<double> field(t.terrain.grid, 1.0);
+    std::copy(uplift.values().begin(), uplift.values().end(), field.values().begin());
+    io::write_field(field, out.path("uplift.tif"), run);
+}
+
 void write_tin(make::MakeResult const& t, io::OutputFolder const& out, Run const& run) {
     HeightUnit const unit = t.recipe.output.units;
     Tin const tin = make::in_unit(t.terrain.ground.tin, unit);
@@ -144,13 +151,19 @@ void write_tin(make::MakeResult const& t, io::OutputFolder const& out, Run const
     io::write_tin(tin, t.terrain.grid.crs, out.path("tin.ply"), io::TinFormat::ply, unit, run);
 }
 
+/// "": the heights follow from what was given, or of a terrain that is not of a place.
+std::string remark_on_heights(make::MakeResult const& t) {
+    return make::heights_are_invented(t.recipe) ? make::invented_heights : "";
+}
+
 void write_dem(make::MakeResult const& t, io::OutputFolder const& out, Run const& run) {
     HeightUnit const unit = t.recipe.output.units;
     Raster<float> const& dem = t.terrain.ground.dem;
+    io::DemLabel const label{unit, remark_on_heights(t)};
     if (unit == HeightUnit::metre) {
-        io::write_dem(dem, out.path("dem.tif"), run);
+        io::write_dem(dem, out.path("dem.tif"), label, run);
     } else {
-        io::write_dem(make::in_unit(dem, unit), out.path("dem.tif"), unit, run);
+        io::write_dem(make::in_unit(dem, unit), out.path("dem.tif"), label, run);
     }
 }
 
@@ -231,6 +244,7 @@ draw::Picture map_with(make::MakeResult const& t, SurfaceParts& parts, draw::Map
     sheet.ridges = &t.terrain.ground.ridges;
     sheet.areas_m2 = t.terrain.water.areas.ds_area_m2;
     map.contour_interval_m = contour_interval_m(t);
+    map.remark = remark_on_heights(t);
     if (land.is_whole()) {
         for (auto const& [z, line] : parts.contours(run)) {
             sheet.contours.emplace_back(z, line);
@@ -327,6 +341,9 @@ public:
         }
         if (made_.assessment.water_areas && writes(recipe::OutputFiles::areas)) {
             add("write_areas", [this](Run const& run) { write_areas(*made_.assessment.water_areas, out_, run); });
+        }
+        if (made_.recipe.output.uplift && made_.terrain.ground.equilibrium()) {
+            add("write_uplift", [this](Run const& run) { write_uplift(made_, out_, run); });
         }
         jobs_.wait();
         if (writes(recipe::OutputFiles::qgis)) {

@@ -2,13 +2,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <queue>
 #include <set>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -614,6 +617,68 @@ TEST(Equilibrium, HasTheMeanSlopeAsked) {
         }
         EXPECT_NEAR(sum / (62.0 * 62.0) * 180.0 / 3.14159265, asked, 0.01 * asked);
     }
+}
+
+/// The normalised steepness of the main stem above the first river cell: rise over chi, with the areas that the
+/// terrain's own directions give.
+double main_steepness(Channels const& rivers, EquilibriumTerrain const& land) {
+    std::int64_t const cells = land.dem.cells();
+    std::vector<double> area(static_cast<std::size_t>(cells), 1.0);
+    std::vector<std::int64_t> order(static_cast<std::size_t>(cells));
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](std::int64_t a, std::int64_t b) { return land.dem[a] > land.dem[b]; });
+    for (std::int64_t const cell : order) {
+        if (std::int64_t const to = flow::receiver(land.direction, cell); to >= 0) {
+            area[static_cast<std::size_t>(to)] += area[static_cast<std::size_t>(cell)];
+        }
+    }
+    double chi = 0.0;
+    std::size_t at = 0;
+    for (std::size_t next = at; next != rivers.cell.size();) {
+        at = next;
+        next = rivers.cell.size();
+        for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+            auto const a = [&](std::size_t k) { return area[static_cast<std::size_t>(rivers.cell[k])]; };
+            if (rivers.receiver[n] == static_cast<std::int64_t>(at) && (next == rivers.cell.size() || a(n) > a(next))) {
+                next = n;
+            }
+        }
+        if (next != rivers.cell.size()) {
+            Cell const a = rivers.grid.at(rivers.cell[at]);
+            Cell const b = rivers.grid.at(rivers.cell[next]);
+            double const step_m = rivers.grid.cell_m * std::hypot(a.col - b.col, a.row - b.row);
+            double const area_m2 =
+                area[static_cast<std::size_t>(rivers.cell[next])] * rivers.grid.cell_m * rivers.grid.cell_m;
+            chi += step_m * std::pow(area_m2, -0.45);
+        }
+    }
+    return static_cast<double>(land.dem[rivers.cell[at]] - land.dem[rivers.cell[0]]) / chi;
+}
+
+// Land whose main stem would be steeper is lowered to the steepness asked, and else stays as it is.
+TEST(Equilibrium, MainStemsAreNoSteeperThanAsked) {
+    Scene scene = square(64, Edge::closed);
+    EquilibriumTerrain const free = equilibrium(scene.rivers, {}, scene.params);
+    EXPECT_FALSE(free.is_bounded);
+    EXPECT_NEAR(free.steepness / main_steepness(scene.rivers, free), 1.0, 0.02);
+    scene.params.steepness = 0.4 * free.steepness;
+    EquilibriumTerrain const bounded = equilibrium(scene.rivers, {}, scene.params);
+    EXPECT_TRUE(bounded.is_bounded);
+    EXPECT_NEAR(bounded.steepness / *scene.params.steepness, 1.0, 1e-9);
+    EXPECT_NEAR(main_steepness(scene.rivers, bounded) / *scene.params.steepness, 1.0, 0.02);
+    for (std::int64_t i = 0; i < free.dem.cells(); ++i) {
+        EXPECT_NEAR(bounded.dem[i], 0.4F * free.dem[i], 1e-3F + 1e-4F * free.dem[i]);
+    }
+    scene.params.steepness = 2.0 * free.steepness;
+    EquilibriumTerrain const loose = equilibrium(scene.rivers, {}, scene.params);
+    EXPECT_FALSE(loose.is_bounded);
+    EXPECT_TRUE(std::equal(loose.dem.values().begin(), loose.dem.values().end(), free.dem.values().begin()));
+    scene.params.relief_m = 100.0; // comes before it
+    scene.params.steepness = 0.4 * free.steepness;
+    EXPECT_FALSE(equilibrium(scene.rivers, {}, scene.params).is_bounded);
+    scene.params = {};
+    scene.params.steepness = 0.0;
+    EXPECT_TRUE(has(message<BadParameter>(scene), "steepness"));
 }
 
 // A sea without land in it is no land to draw; rivers that break their law are named with their place.

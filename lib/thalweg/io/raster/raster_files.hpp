@@ -140,6 +140,20 @@ void write_dem(Raster<float> const& dem, std::string const& path, Run const& run
 /// \param unit of heights
 void write_dem(Raster<float> const& dem, std::string const& path, HeightUnit unit, Run const& run = {});
 
+/// \internal
+/// What a file of heights says of them.
+struct DemLabel {
+    HeightUnit unit = HeightUnit::metre;
+    std::string remark = {}; ///< UTF-8: TIFF's ImageDescription; "": none
+};
+
+/// \internal
+/// Writes heights that are already in a unit, with a remark.
+/// \param dem in the unit, by cell; NaN: no data
+/// \param path of the file
+/// \throws Error as write_dem without a label
+void write_dem(Raster<float> const& dem, std::string const& path, DemLabel const& label, Run const& run = {});
+
 /// Writes a new Byte GeoTIFF (tiled, DEFLATE), reproducible as by write_dem.
 /// \param mask by cell
 /// \param path of the file

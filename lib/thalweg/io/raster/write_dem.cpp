@@ -102,16 +102,23 @@ void require_geotiff_name(std::string const& path) {
 }
 
 void write_dem(Raster<float> const& dem, std::string const& path, Run const& run) {
-    write_dem(dem, path, HeightUnit::metre, run);
+    write_dem(dem, path, DemLabel{}, run);
 }
 
 void write_dem(Raster<float> const& dem, std::string const& path, HeightUnit unit, Run const& run) {
+    write_dem(dem, path, DemLabel{unit, ""}, run);
+}
+
+void write_dem(Raster<float> const& dem, std::string const& path, DemLabel const& label, Run const& run) {
     About const about{"io.write_dem", path};
     require_new(path, about);
     Driver const driver;
     WrittenFile file(path, about);
     Dataset source = dataset_of(dem, about);
-    source->GetRasterBand(1)->SetUnitType(name_of(unit));
+    source->GetRasterBand(1)->SetUnitType(name_of(label.unit));
+    if (!label.remark.empty()) {
+        source->SetMetadataItem("TIFFTAG_IMAGEDESCRIPTION", label.remark.c_str());
+    }
     CPLStringList options;
     options.SetNameValue("COMPRESS", "DEFLATE");
     options.SetNameValue("PREDICTOR", "FLOATING_POINT");

@@ -50,26 +50,6 @@ Mask land_of(Mask one, Mask const& other, Channels const& channels) {
     return one;
 }
 
-/// Uplift from a file, which may be empty, times that of the requested pattern.
-Raster<float> with_pattern(Raster<float> of_file, recipe::Recipe const& recipe, Grid const& grid, Run const& run) {
-    recipe::EquilibriumRecipe const& wanted = recipe.surface->equilibrium;
-    if (!wanted.uplift_pattern) {
-        return of_file;
-    }
-    Raster<float> uplift =
-        surface::uplift_pattern(grid,
-                                {.pattern = *wanted.uplift_pattern,
-                                 .contrast = wanted.uplift_contrast,
-                                 .wave_m = wanted.uplift_wave_m,
-                                 .strike_deg = wanted.strike_deg.value_or(surface::random_strike_deg(recipe.seed)),
-                                 .seed = recipe.seed},
-                                run);
-    for (std::int64_t i = 0; i < of_file.cells(); ++i) {
-        uplift[i] *= of_file[i];
-    }
-    return uplift;
-}
-
 double higher(double a, double b) {
     return std::isnan(a) || b > a ? b : a;
 }
@@ -107,9 +87,7 @@ surface::EquilibriumFields equilibrium_fields(GroundInput const& in, Channels co
     surface::EquilibriumFields fields;
     fields.land = land_of(recipe::read_mask_of_land(recipe::file_in(recipe, recipe.surface->mask), grid, run),
                           in.planform.land, channels);
-    fields.uplift = with_pattern(
-        recipe::read_field(recipe::file_in(recipe, wanted.equilibrium.uplift), grid, "surface.uplift", run), recipe,
-        grid, run);
+    fields.uplift = relative_uplift(recipe, grid, run);
     fields.erodibility =
         recipe::read_field(recipe::file_in(recipe, wanted.equilibrium.erodibility), grid, "surface.erodibility", run);
     fields.features = feature_cells(in.points, in.ridges, grid);
@@ -156,6 +134,9 @@ surface::EquilibriumParams params_of(recipe::Recipe const& recipe, std::optional
     } else if (recipe::from_lines(recipe)) { // given heights have their own slope
         params.mean_slope_deg = recipe::usual_slope_deg(recipe.grid.cell_m);
     }
+    if (relief_m <= 0.0) {
+        params.steepness = wanted.steepness;
+    }
     params.hillslope_m = wanted.hillslope_m > 0.0 ? wanted.hillslope_m : recipe.grid.cell_m;
     params.debris_area_m2 = wanted.debris_area_km2 * 1e6;
     params.floor_width_km = half_width_km * wanted.floor_width;
@@ -195,7 +176,7 @@ std::vector<Check> target_checks(surface::EquilibriumTerrain const& surface, sur
                                  bool by_levels, StageLog& stage_log) {
     constexpr double allowed = 0.05;
     bool const given = params.heights != surface::RiverHeights::graded;
-    if ((given || by_levels) && !params.bring_to_target) {
+    if (((given || by_levels) && !params.bring_to_target) || surface.is_bounded) {
         return {};
     }
     double const error = std::fabs(surface.target_share - 1.0);
@@ -343,6 +324,7 @@ HowMade how_of(SolvedEquilibrium solved, Balance const& balance, std::int64_t ch
     how.max_lowered_m = land.max_lowered_m;
     how.p95_lowered_m = land.p95_lowered_m;
     how.rise = land.rise;
+    how.steepness = land.steepness;
     how.in_region = land.in_region;
     how.inflows = std::move(land.inflows);
     return balance.is_rebuilt ? HowMade(std::move(how)) : HowMade(static_cast<Equilibrium&&>(how));
@@ -388,6 +370,23 @@ ValleyCells valley_of(Channels const& channels, Raster<float> const& dem) {
     return valley_cells(dem.grid(), std::move(heights));
 }
 
+/// Notes that nothing says how high the land around rivers of a file is, and what its heights follow from.
+void note_invented_heights(surface::EquilibriumTerrain const& land, surface::EquilibriumParams const& params,
+                           std::string const& file, StageLog& stage_log) {
+    std::string const by =
+        land.is_bounded
+            ? fmt::format(
+                  "main stems have a normalised steepness of {:.3g} m^0.9 (surface.steepness), so that the mean "
+                  "slope is {:.3g}° and not {:.3g}°",
+                  land.steepness, land.target_share * params.mean_slope_deg, params.mean_slope_deg)
+            : fmt::format("the mean slope is {:.3g}°", params.mean_slope_deg);
+    stage_log.find({.kind = "heights_invented",
+                    .amount = land.steepness,
+                    .text = fmt::format("heights are invented, as {} has none: {}", file, by),
+                    .key = "surface.relief",
+                    .layer = file});
+}
+
 /// Checks of what the recipe asks of the surface, and warnings.
 std::vector<Check> checks_of(GroundInput const& in, SolvedEquilibrium const& solved, Balance const& balance,
                              Channels const& channels, bool by_levels, StageLog& stage_log, Run const& run) {
@@ -406,11 +405,40 @@ std::vector<Check> checks_of(GroundInput const& in, SolvedEquilibrium const& sol
         checks.push_back(valley_check(land.dem, channels, has_sea, stage_log, run));
     }
     warn_of_region(land, in.recipe.surface->equilibrium.region, stage_log);
+    if (heights_are_invented(in.recipe)) {
+        note_invented_heights(land, solved.params, in.recipe.network->lines.path, stage_log);
+    }
     warn_of_heights(land.dem, balance.is_rebuilt, stage_log);
     return checks;
 }
 
 } // namespace
+
+bool heights_are_invented(recipe::Recipe const& recipe) {
+    return recipe::from_lines(recipe) && recipe::in_equilibrium(recipe) &&
+           recipe.network->heights == recipe::Heights::graded && recipe.surface->equilibrium.like.empty() &&
+           !(recipe.surface->dilate.relief_m > 0.0);
+}
+
+Raster<float> relative_uplift(recipe::Recipe const& recipe, Grid const& grid, Run const& run) {
+    recipe::EquilibriumRecipe const& wanted = recipe.surface->equilibrium;
+    Raster<float> of_file = recipe::read_field(recipe::file_in(recipe, wanted.uplift), grid, "surface.uplift", run);
+    if (!wanted.uplift_pattern) {
+        return of_file;
+    }
+    Raster<float> uplift =
+        surface::uplift_pattern(grid,
+                                {.pattern = *wanted.uplift_pattern,
+                                 .contrast = wanted.uplift_contrast,
+                                 .wave_m = wanted.uplift_wave_m,
+                                 .strike_deg = wanted.strike_deg.value_or(surface::random_strike_deg(recipe.seed)),
+                                 .seed = recipe.seed},
+                                run);
+    for (std::int64_t i = 0; i < of_file.cells(); ++i) {
+        uplift[i] *= of_file[i];
+    }
+    return uplift;
+}
 
 Surface balanced(GroundInput const& in, Balance const& balance, Run const& run) {
     StageLog stage_log(run);

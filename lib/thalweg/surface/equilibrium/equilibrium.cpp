@@ -47,6 +47,9 @@ void check_params(EquilibriumParams const& params) {
     if (params.relief_m) {
         require_in(self, "relief_m", *params.relief_m, Range::above(0.0), "m");
     } else {
+        if (params.steepness) {
+            require_in(self, "steepness", *params.steepness, Range::above(0.0), "m^0.9");
+        }
         require_in(self, "mean_slope_deg", params.mean_slope_deg, Range{0.0, 60.0, false, true}, "degrees");
     }
 }
@@ -392,6 +395,7 @@ struct EquilibriumSolution {
     std::int64_t margin = 0;
     bool in_region = false;
     std::vector<RegionInflow> inflows;
+    double steepness = 0.0; ///< as stem_steepness()
 };
 
 ErodibilityParams erodibility_of(EquilibriumParams const& params, Window const& window) {
@@ -424,6 +428,7 @@ EquilibriumSolution solved(Channels const& rivers, EquilibriumFields const& fiel
     ErodibilityParams const rock = erodibility_of(params, window);
     TerrainLevel level;
     TerrainLevel around; // the region's finest level
+    double steepness = std::numeric_limits<double>::quiet_NaN();
     std::vector<RegionInflow> inflows;
     for (std::size_t number = levels.size(); number-- > 0;) {
         level = prepared(std::move(levels[number]), number, level, around,
@@ -441,10 +446,13 @@ EquilibriumSolution solved(Channels const& rivers, EquilibriumFields const& fiel
         if (number == 0 && region.level > 0) {
             inflows = inflows_of(level, window.grid, window.margin);
         }
+        if (number == 0) {
+            steepness = stem_steepness(level, window.grid.cell_m);
+        }
         free_finished_memory(level);
     }
     check_drained(level, fields.land, land.margin, rivers.grid);
-    return {std::move(level), solver.shortened(), land.margin, region.level > 0, std::move(inflows)};
+    return {std::move(level), solver.shortened(), land.margin, region.level > 0, std::move(inflows), steepness};
 }
 
 bool asks_heights(Channels const& rivers, EquilibriumParams const& params) {
@@ -670,8 +678,13 @@ EquilibriumTerrain balanced(Channels const& rivers, EquilibriumFields const& fie
     EquilibriumSolution graded = solved(drawn, fields, wanted, nullptr, quiet);
     Window const window{rivers.grid, fields.land, graded.margin};
     run.check();
-    HeightConversion const raise = height_conversion_for(graded.level, rivers, window, params, run);
+    HeightConversion raise = height_conversion_for(graded.level, rivers, window, params, run);
     run.check();
+    bool const is_bounded = params.steepness && !params.relief_m && raise.metres * graded.steepness > *params.steepness;
+    if (is_bounded) {
+        double const lower = *params.steepness / (raise.metres * graded.steepness);
+        raise = {raise.metres * lower, raise.base_m * lower, raise.mean_tangent * lower};
+    }
     // The scale of heights is known only now, so that prescribed metres can be converted to solver units.
     if (is_asked) {
         graded = {};
@@ -681,7 +694,11 @@ EquilibriumTerrain balanced(Channels const& rivers, EquilibriumFields const& fie
     if (by_lakes) {
         return terrain_with_levels(rivers, fields, wanted, std::move(graded), raise, run);
     }
-    return graded_terrain(std::move(graded), rivers, fields, params, raise, run);
+    double const steepness = graded.steepness * raise.metres;
+    EquilibriumTerrain land = graded_terrain(std::move(graded), rivers, fields, params, raise, run);
+    land.steepness = steepness;
+    land.is_bounded = is_bounded;
+    return land;
 }
 
 /// Known heights as heights above the first river's end, in the solver's units.

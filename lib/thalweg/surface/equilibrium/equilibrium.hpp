@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -69,9 +70,12 @@ struct EquilibriumFields {
 
 /// Options of equilibrium().
 struct EquilibriumParams {
-    double theta = 0.38;              ///< [0.1, 0.9] concavity index: slope ~ area^-theta
-    double mean_slope_deg = 25.0;     ///< (0, 60] mean over cells (Horn's slope), unless relief_m is set
-    std::optional<double> relief_m;   ///< [m] > 0, highest minus lowest cell; replaces the mean slope
+    double theta = 0.38;            ///< [0.1, 0.9] concavity index: slope ~ area^-theta
+    double mean_slope_deg = 25.0;   ///< (0, 60] mean over cells (Horn's slope), unless relief_m is set
+    std::optional<double> relief_m; ///< [m] > 0, highest minus lowest cell; replaces the mean slope
+    /// [m^0.9] > 0 greatest normalised steepness of the main stems of graded rivers, for a concavity of 0.45: where the
+    /// mean slope makes them steeper, all heights are lowered to it; none: not bounded. Nothing with relief_m.
+    std::optional<double> steepness;
     double hillslope_m = 15.0;        ///< [m] >= 0 length below which soil creep dominates (Perron 2009)
     double debris_area_m2 = 45'000.0; ///< [m²] >= 0 drainage area below which debris flows cut (Stock 2003)
     double floor_width_km = 0.009; ///< [km] [0, 1] half width of a valley floor where 1 km² drains; grows as area^0.42
@@ -113,6 +117,9 @@ struct EquilibriumTerrain {
     std::vector<RegionInflow> inflows; ///< of 1000 cells or more, by cell
     double target_share = 1.0;         ///< mean slope or relief reached / target
     double rise = 0.0;                 ///< height [m] of one unit of the solver / cell size
+    /// [m^0.9] normalised steepness of the main stems of graded rivers, those of larger basins more; NaN: not graded
+    double steepness = std::numeric_limits<double>::quiet_NaN();
+    bool is_bounded = false; ///< by the greatest steepness, so that the mean slope is less than its target
 };
 
 /// Builds terrain in equilibrium with given rivers: uplift equals fluvial incision (K A^theta S, debris flows where A

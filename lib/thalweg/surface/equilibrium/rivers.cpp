@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <utility>
 
 #include <thalweg/surface/equilibrium/internal/river_cells.hpp>
@@ -494,6 +496,40 @@ void relax_given_rivers(TerrainLevel& level, EquilibriumLaw const& law, RiverHei
         }
         level.z[rivers.cell[n]] = z[n];
     }
+}
+
+double stem_steepness(TerrainLevel const& level, double cell_m) {
+    constexpr double concavity = 0.45;
+    RiverCells const& rivers = level.rivers;
+    double const side_m = static_cast<double>(level.side) * cell_m;
+    auto const area = [&](std::size_t n) { return level.area[rivers.cell[n]]; };
+    std::vector<std::int32_t> donor(rivers.cell.size(), -1); // that of the largest area
+    for (std::size_t n = 0; n < donor.size(); ++n) {
+        if (std::int32_t const r = rivers.receiver[n]; r >= 0 && (donor[r] < 0 || area(n) > area(donor[r]))) {
+            donor[r] = static_cast<std::int32_t>(n);
+        }
+    }
+    double rises = 0.0;
+    double chis = 0.0;
+    for (std::size_t mouth = 0; mouth < donor.size(); ++mouth) {
+        if (rivers.receiver[mouth] >= 0) {
+            continue;
+        }
+        double chi = 0.0; // [m^0.1]
+        std::size_t source = mouth;
+        for (std::int32_t n = donor[mouth]; n >= 0; n = donor[n]) {
+            double const step_m = side_m / d8_per_length[static_cast<std::size_t>(rivers.direction[n])];
+            chi += step_m * portable::pow(static_cast<double>(area(n)) * side_m * side_m, -concavity);
+            source = static_cast<std::size_t>(n);
+        }
+        auto const rise = static_cast<double>(level.z[rivers.cell[source]] - level.z[rivers.cell[mouth]]);
+        auto const weight = static_cast<double>(area(mouth));
+        if (std::isfinite(rise) && rise > 0.0) {
+            rises += weight * rise;
+            chis += weight * chi;
+        }
+    }
+    return chis > 0.0 ? rises / chis : std::numeric_limits<double>::quiet_NaN();
 }
 
 bool leaves_grid(RiverCells const& rivers, std::size_t n) {

@@ -32,6 +32,12 @@ void relax_rivers(TerrainLevel& level, EquilibriumLaw const& law);
 /// lower, or where water would not run otherwise.
 void relax_given_rivers(TerrainLevel& level, EquilibriumLaw const& law, RiverHeights heights);
 
+/// The normalised steepness of the main stems of a level's rivers, for a concavity of 0.45: rise over chi, each stem
+/// weighted by the area that its mouth drains. A stem goes up along the largest area.
+/// \param cell_m [m] side of the finest cells
+/// \return [m^-0.1] per unit of height: times the metres of a unit it is in m^0.9; NaN where no stem rises
+double stem_steepness(TerrainLevel const& level, double cell_m);
+
 /// Whether water leaves the caller's grid at river cell n of a level.
 bool leaves_grid(RiverCells const& rivers, std::size_t n);
 
