@@ -57,6 +57,7 @@ struct Equilibrium {
     surface::Edge edge = surface::Edge::open; ///< of the terrain, by recipe, mask or sea
     std::int64_t channel_cells = 0;           ///< in which rivers run
     std::int64_t shortened_cells = 0;         ///< of perched tips that were cut
+    std::int64_t graded_heads = 0;            ///< of these tips, those that would have had to lie in trenches
     std::int64_t walled_cells = 0;            ///< of rivers whose input heights only walls hold up
     double max_lowered_m = 0.0;               ///< soft: below the input heights
     double p95_lowered_m = 0.0;

@@ -438,6 +438,7 @@ void add_statistics(make::MakeResult const& t, ordered_json& report) {
             {"channel_cells", e.channel_cells},
             {"lakes", t.terrain.bed.lakes},
             {"shortened_cells", e.shortened_cells},
+            {"graded_heads", e.graded_heads},
             {"walled_cells", e.walled_cells},
             {"lowered", {{"max_m", e.max_lowered_m}, {"p95_m", e.p95_lowered_m}}},
             {"rise", e.rise},

@@ -486,6 +486,41 @@ TEST(Equilibrium, HeadsAreKeptByFirmerRock) {
     }
 }
 
+/// River cells beside which all land stands more than a height above them.
+std::int64_t cells_in_trenches(Scene const& scene, EquilibriumTerrain const& land, double height_m) {
+    std::set<std::int64_t> const rivers = river_cells(scene, land);
+    return std::count_if(rivers.begin(), rivers.end(), [&](std::int64_t cell) {
+        float lowest = std::numeric_limits<float>::infinity();
+        for (std::int64_t const n : beside(scene.rivers.grid, cell)) {
+            lowest = rivers.contains(n) ? lowest : std::min(lowest, land.dem[n]);
+        }
+        return std::isfinite(lowest) && static_cast<double>(lowest - land.dem[cell]) > height_m;
+    });
+}
+
+// Rivers that head far inland, and gorges in the east, where uplift is six times as high.
+TEST(Equilibrium, NoRiverLiesInATrench) {
+    Scene scene;
+    Grid const grid = test::frame(192, 192, 30.0);
+    scene.fields.uplift = Raster<float>(grid, 1.0F);
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        scene.fields.uplift[i] = grid.at(i).col > 96 ? 6.0F : 1.0F;
+    }
+    scene.params.roughness = 0.4;
+    std::int64_t graded = 0;
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        scene.params.seed = seed;
+        scene.params.heads = seed % 3 == 0 ? Heads::kept : Heads::cut;
+        scene.rivers = channel_trees::grown(grid, {grid.index({0, 60}), grid.index({191, 100}), grid.index({80, 191})},
+                                            {}, 900, Room::apart, seed);
+        EquilibriumTerrain const land = equilibrium(scene.rivers, scene.fields, scene.params);
+        EXPECT_EQ(cells_in_trenches(scene, land, grid.cell_m), 0) << seed; // 45 degrees
+        graded += land.graded_heads;
+        EXPECT_LE(land.graded_heads, std::ssize(land.shortened));
+    }
+    EXPECT_GT(graded, 0);
+}
+
 TEST(Equilibrium, OnlyHeadsBesideAnotherRiverAreCut) {
     Channels const rivers = long_and_short(1); // twelve rows side by side
     EquilibriumTerrain const land = with_heads(rivers, Heads::kept);

@@ -438,6 +438,56 @@ TEST(Perched, IsLoweredOrHeldUp) {
     }));
 }
 
+/// A straight river of even slope, from a head that stands by a height above a hollow two cells beyond.
+TerrainLevel with_hollow(float tangent, float height) {
+    constexpr std::int64_t row = 5;
+    TerrainLevel level = level_of(80, 9, 100.0F);
+    for (std::int64_t col = 80; col > 9; --col) {
+        auto const n = static_cast<std::int32_t>(level.rivers.cell.size());
+        add_spring(level, static_cast<std::size_t>(row * level.width + col));
+        level.rivers.receiver.back() = n - 1;
+        level.rivers.direction.back() = n == 0 ? no_direction : std::int8_t{0};
+        level.z[level.rivers.cell.back()] = static_cast<float>(n) * tangent;
+    }
+    level.z[level.rivers.cell.back() - 2] = level.z[level.rivers.cell.back()] - height;
+    return level;
+}
+
+// To be lowered to the hollow, a gentle river would have to lie in a trench far downstream.
+TEST(Trenched, IsTheHeadOfAGentleRiver) {
+    constexpr float tangent = 0.2F;
+    TerrainLevel gentle = with_hollow(0.01F, 0.5F);
+    auto const head = static_cast<std::int64_t>(gentle.rivers.cell.size()) - 1;
+    std::size_t const cell = gentle.rivers.cell.back();
+    EXPECT_EQ(remove_trenched_tips(gentle, tangent), std::vector<std::int64_t>{head});
+    EXPECT_EQ(gentle.type[cell], CellType::bank);
+    EXPECT_TRUE(remove_trenched_tips(gentle, tangent).empty());
+    TerrainLevel steep = with_hollow(0.1F, 0.5F);
+    EXPECT_TRUE(remove_trenched_tips(steep, tangent).empty());
+    TerrainLevel shallow = with_hollow(0.01F, 0.25F);
+    EXPECT_TRUE(remove_trenched_tips(shallow, tangent).empty());
+}
+
+TEST(LowerBanks, LeavesThemAboveRivers) {
+    ASSERT_TRUE(rc::check("no bank stands higher above its river, or is lower than another one", [] {
+        TerrainLevel level = any_flood_level();
+        flood_terrain(level);
+        float const rise = *rc::gen::element(0.5F, 2.0F).as("rise");
+        float const step = 0.01F;
+        auto const offsets = level.offsets();
+        Cells<float> plain = level.z;
+        each_inner(level, [&](std::size_t i) {
+            if (is_bank(level.type[i])) {
+                float const most = level.z[moved(i, offsets[static_cast<std::size_t>(level.direction[i])])] + rise;
+                float const least = highest_river(level, i, offsets) + step;
+                plain[i] = std::min(plain[i], std::max(most, least));
+            }
+        });
+        lower_banks(level, rise, step);
+        RC_ASSERT(level.z == plain);
+    }));
+}
+
 // The land's edge is as high as the nearest river, also when heads have been given up and the others are counted anew.
 TEST(EdgeHeights, AskNoNumbers) {
     ASSERT_TRUE(rc::check("edges keep their heights when rivers are counted anew", [] {

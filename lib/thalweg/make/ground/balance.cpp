@@ -320,6 +320,7 @@ HowMade how_of(SolvedEquilibrium solved, Balance const& balance, std::int64_t ch
     how.edge = solved.params.edge;
     how.channel_cells = channel_cells;
     how.shortened_cells = static_cast<std::int64_t>(land.shortened.size());
+    how.graded_heads = land.graded_heads;
     how.walled_cells = static_cast<std::int64_t>(land.walled.size());
     how.max_lowered_m = land.max_lowered_m;
     how.p95_lowered_m = land.p95_lowered_m;

@@ -324,6 +324,7 @@ public:
     }
 
     std::vector<std::int64_t> const& shortened() const { return shortened_; }
+    std::int64_t graded_heads() const { return graded_heads_; }
 
 private:
     /// Few at the finest level, many at the coarsest.
@@ -355,6 +356,8 @@ private:
         run_.check();
         if (!given) {
             remove_tips(level);
+            lower_perched(level, perched_, least_tangent);
+            lower_banks(level, level.bank_rise, least_tangent);
             slide_terrain(level, run_);
             run_.check();
         }
@@ -366,10 +369,22 @@ private:
     void remove_tips(TerrainLevel& level) {
         HeightConversion const raise = height_conversion_for(level, rivers_, window_, params_, run_);
         perched_ = static_cast<float>(raise.mean_tangent * window_.grid.cell_m / raise.metres);
+        level.bank_rise = steepest_bank * perched_ * level.side;
         if (params_.heads == Heads::kept) {
             return;
         }
         take(remove_perched_tips(level, of_perched * perched_, TipBanks::rise));
+        std::vector<std::int64_t> const trenched = remove_trenched_tips(level, perched_);
+        graded_heads_ += heads_of(trenched);
+        take(trenched);
+    }
+
+    /// Counts the pieces of rivers that these cells are.
+    std::int64_t heads_of(std::vector<std::int64_t> numbers) const {
+        std::sort(numbers.begin(), numbers.end());
+        return std::count_if(numbers.begin(), numbers.end(), [&](std::int64_t n) {
+            return !std::binary_search(numbers.begin(), numbers.end(), rivers_.receiver[n]);
+        });
     }
 
     void take(std::vector<std::int64_t> const& numbers) {
@@ -387,11 +402,13 @@ private:
     EquilibriumLaw law_;
     float perched_ = 0.0F; ///< tangent above which river cells count as perched, in the solver's units
     std::vector<std::int64_t> shortened_;
+    std::int64_t graded_heads_ = 0;
 };
 
 struct EquilibriumSolution {
     TerrainLevel level;
     std::vector<std::int64_t> shortened;
+    std::int64_t graded_heads = 0;
     std::int64_t margin = 0;
     bool in_region = false;
     std::vector<RegionInflow> inflows;
@@ -452,7 +469,8 @@ EquilibriumSolution solved(Channels const& rivers, EquilibriumFields const& fiel
         free_finished_memory(level);
     }
     check_drained(level, fields.land, land.margin, rivers.grid);
-    return {std::move(level), solver.shortened(), land.margin, region.level > 0, std::move(inflows), steepness};
+    return {std::move(level),   solver.shortened(), solver.graded_heads(), land.margin, region.level > 0,
+            std::move(inflows), steepness};
 }
 
 bool asks_heights(Channels const& rivers, EquilibriumParams const& params) {
@@ -617,6 +635,7 @@ EquilibriumTerrain graded_terrain(EquilibriumSolution&& land, Channels const& ri
     Window const window{rivers.grid, fields.land, land.margin};
     EquilibriumTerrain out =
         extract_terrain(std::move(land.level), rivers, window, raise, std::move(land.shortened), params.heads, run);
+    out.graded_heads = land.graded_heads;
     out.inflows = std::move(land.inflows);
     out.in_region = land.in_region;
     out.target_share = share_of_target(out.dem, 1.0 / rivers.grid.cell_m, params, run);

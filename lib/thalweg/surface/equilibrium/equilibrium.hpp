@@ -109,6 +109,7 @@ struct EquilibriumTerrain {
     Raster<float> dem;                   ///< [m] NaN: sea
     Raster<flow::Direction> direction;   ///< D8 flow directions; no_data at sea
     std::vector<std::int64_t> shortened; ///< numbers of channel cells removed because they were perched (tips)
+    std::int64_t graded_heads = 0;       ///< of these tips: pieces that would have had to lie in trenches
     /// numbers of channel cells on walls (fixed, soft, heads kept; else those in and below lakes with levels)
     std::vector<std::int64_t> walled;
     double max_lowered_m = 0.0;        ///< soft: largest lowering below prescribed heights

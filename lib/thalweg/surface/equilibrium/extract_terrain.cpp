@@ -497,6 +497,7 @@ EquilibriumTerrain extract_terrain(TerrainLevel level, Channels const& rivers, W
         }
     }
     hold_levels(level, rivers);
+    lower_banks(level, steepest_bank * perched_height(raise, window.grid), settled_step(raise));
     raise_below_perched(level, 0.99F * perched_height(raise, window.grid));
     run.check();
     settle_terrain(level, settled_step(raise), RiverHeights::graded, run);

@@ -293,8 +293,8 @@ private:
     float bank_height(RowOfLevel const& row, std::size_t i, std::size_t c, float share) const {
         auto const way = static_cast<std::size_t>(level_.direction[i]);
         auto const column = static_cast<std::int64_t>(c);
-        float z = relaxed(level_.z[i], share, row.beside(column, way), level_.rock.cap(i) * length_[way],
-                          level_.least * length_[way]);
+        float const most = std::min(level_.rock.cap(i) * length_[way], level_.bank_rise);
+        float z = relaxed(level_.z[i], share, row.beside(column, way), most, level_.least * length_[way]);
         z = pull_.floor.empty() ? z : std::max(z, pull_.floor[i]);
         float highest = -std::numeric_limits<float>::infinity();
         for (std::size_t k = 0; k < offsets_.size(); ++k) {

@@ -206,6 +206,21 @@ bool is_perched(TerrainLevel const& level, std::uint32_t cell, float tangent) {
     return level.z[cell] > highest_lawful(level, cell, tangent);
 }
 
+/// Whether lower_perched() would lower many cells in a row from river cell n on by half of what may be perched.
+bool cuts_trench(TerrainLevel const& level, std::size_t n, float tangent) {
+    constexpr float deep = 0.5F;  // relative to the tangent times a cell
+    constexpr int most_deep = 24; // [cells] shorter ones become the heads of hollows
+    RiverCells const& rivers = level.rivers;
+    float most = highest_lawful(level, rivers.cell[n], tangent) + deep * tangent * level.side;
+    for (int k = 0; level.z[rivers.cell[n]] > most; ++k, most -= least_tangent) {
+        if (k == most_deep || leaves_grid(rivers, n)) {
+            return true;
+        }
+        n = static_cast<std::size_t>(rivers.receiver[n]);
+    }
+    return false;
+}
+
 constexpr std::int32_t longest_tip = 200;     // [cells] more is not a tip
 constexpr std::int32_t longest_touching = 32; // [cells] the same beside another river
 
@@ -589,6 +604,19 @@ void lower_perched(TerrainLevel& level, float tangent, float step) {
     }
 }
 
+void lower_banks(TerrainLevel& level, float rise, float step) {
+    auto const offsets = level.offsets();
+    for (std::uint32_t const river : level.rivers.cell) {
+        float const most = level.z[river] + rise;
+        for (std::int64_t const offset : offsets) {
+            std::size_t const i = moved(river, offset);
+            if (is_bank(level.type[i]) && level.z[i] > most && moved(i, offsets[level.direction[i]]) == river) {
+                level.z[i] = std::min(level.z[i], std::max(most, highest_river(level, i, offsets) + step));
+            }
+        }
+    }
+}
+
 void raise_below_perched(TerrainLevel& level, float tangent) {
     constexpr std::int64_t reach = 4; // [cells]
     Grid frame;
@@ -625,6 +653,12 @@ void raise_land_beside(TerrainLevel& level, float tangent) {
 std::vector<std::int64_t> remove_perched_tips(TerrainLevel& level, float tangent, TipBanks banks) {
     auto const perched = [&](std::size_t n) { return is_perched(level, level.rivers.cell[n], tangent); };
     return remove_tips(level, marked_tips(level.rivers, upstream_of(level.rivers), longest_tip, perched), banks);
+}
+
+std::vector<std::int64_t> remove_trenched_tips(TerrainLevel& level, float tangent) {
+    auto const trenched = [&](std::size_t n) { return cuts_trench(level, n, tangent); };
+    return remove_tips(level, marked_tips(level.rivers, upstream_of(level.rivers), longest_tip, trenched),
+                       TipBanks::rise);
 }
 
 std::vector<std::int64_t> remove_touching_tips(TerrainLevel& level) {

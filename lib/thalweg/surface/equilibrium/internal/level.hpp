@@ -202,6 +202,8 @@ struct TerrainLevel {
     std::vector<std::uint32_t> crests;   ///< land cells that no water crosses where it finds another way, ascending
     Cells<std::uint8_t> is_crest;        ///< by cell; empty: there are none
     SomeCells firmness;                  ///< [log] decrease of erodibility below the fields' values
+    /// most by which a bank stands above the river to which it drains
+    float bank_rise = std::numeric_limits<float>::infinity();
 
     std::int64_t cells() const { return width * height; }
     Cell at(std::size_t i) const {

@@ -53,6 +53,12 @@ std::vector<std::int64_t> walled_cells(TerrainLevel const& level, float tangent,
 /// distance.
 void lower_perched(TerrainLevel& level, float tangent, float step);
 
+/// The steepest rise from a river to a bank, relative to the mean slope: 43 degrees where that is 25.
+inline constexpr float steepest_bank = 2.0F;
+
+/// Lowers banks to at most a rise above the river cells to which they drain, and a step above other rivers beside them.
+void lower_banks(TerrainLevel& level, float rise, float step);
+
 /// Raises the terrain two to four cells from a perched river cell, as a slope, until it is no longer perched.
 void raise_below_perched(TerrainLevel& level, float tangent);
 
@@ -63,6 +69,10 @@ void raise_land_beside(TerrainLevel& level, float tangent);
 /// `stay`, a bank does not become lower than a river beside it. Returns numbers in the caller's Channels.
 enum class TipBanks : std::uint8_t { stay, rise };
 std::vector<std::int64_t> remove_perched_tips(TerrainLevel& level, float tangent, TipBanks banks);
+
+/// Removes likewise the cells near heads for which lower_perched() would cut a long trench with a nearly level bed,
+/// whose sides have no time to come down.
+std::vector<std::int64_t> remove_trenched_tips(TerrainLevel& level, float tangent);
 
 /// Removes likewise the cells near heads that lie beside another river's cells, where no terrain fits between them.
 std::vector<std::int64_t> remove_touching_tips(TerrainLevel& level);
