@@ -11,6 +11,7 @@
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/core/same_grid.hpp>
+#include <thalweg/surface/equilibrium/internal/base_levels.hpp>
 #include <thalweg/surface/equilibrium/internal/erodibility.hpp>
 #include <thalweg/surface/equilibrium/internal/extract_terrain.hpp>
 #include <thalweg/surface/equilibrium/internal/given_rivers.hpp>
@@ -206,6 +207,7 @@ TerrainLevel prepared(LevelInput&& input, std::size_t number, TerrainLevel const
     run.check();
     set_erodibility(level, land.fields, land.rock, run);
     copy_firmness(level, coarser);
+    copy_grade(level, coarser);
     level.jitter = params.seed;
     run.check();
     if (coarser.z.empty()) {
@@ -297,6 +299,13 @@ public:
             run_.check();
             accumulate_areas(level, run_);
             run_.check();
+            bool const by_turns = params_.heads == Heads::kept && round % 2 == 1; // firmness and grades
+            if (by_turns && !given && number > 1) {
+                ease_rivers(level, law_);
+                if (by_rivers && !params_.inflow) {
+                    soften_valleys_beyond(level);
+                }
+            }
             if (given) {
                 relax_given_rivers(level, law_, params_.heights);
             } else if (number > 0) {
@@ -313,8 +322,9 @@ public:
             raise_crests(level, pull.floor);
             relax_terrain(level, law_.land, pull, run_);
             change_erodibility_at_crests(level, run_);
-            if (params_.heads == Heads::kept && round % 2 == 1 && rounds - round >= to_come_down) {
-                reduce_erodibility(level, law_);
+            if (by_turns && rounds - round >= to_come_down) {
+                // rivers with heights or lakes stand where they are told to
+                reduce_erodibility(level, law_, given || !level.rivers.hold.empty() ? 2.0F : 0.3F);
             }
         }
         if (number == 0) {

@@ -22,7 +22,7 @@
 // large valleys settle before small ones. Rivers keep their cells and receivers, but for heads that
 // would stand perched. No cell is ever set lower than a step above its receiver, so no depression
 // can form and none is filled. Heights are scaled to the target slope or relief at the end.
-// Source: ours: docs/decisions/0015-equilibrium.md and 0022 to 0026. Parts: creep length Perron et
+// Source: ours: docs/decisions/0015-equilibrium.md, 0022 to 0026, 0039. Parts: creep length Perron et
 // al. 2009; stack order Braun and Willett 2013; flood Barnes et al. 2014; debris flows Stock and
 // Dietrich 2003.
 // Cost: O(n) a round; levels add a third. docs/performance.md: 408 ns and 21 bytes a cell for 2048

@@ -169,7 +169,6 @@ Cells<float> level_of(Raster<float> const& field, TerrainLevel const& level) {
 
 constexpr float tolerated = 0.2F; // [cells of the level] tolerated deficit of the terrain beside a river
 constexpr float rate = 0.5F;      // largest change per call
-constexpr float firmest = 2.0F;   // [log]
 // share of the decrease by which the cap increases: slopes steeper than at the fields' erodibility, but not walls
 constexpr float of_cap = 0.4F;
 constexpr float reach_cells = 4.0F;   // [finest cells] beside a flow path
@@ -198,7 +197,7 @@ float wanted_height(TerrainLevel const& level, EquilibriumLaw const& law, std::s
     }
     float const below = level.z[rivers.cell[rivers.receiver[n]]];
     float const length = level.side * step_lengths[rivers.direction[n]];
-    return below + graded_tangent(level, law, rivers.cell[n]) * length;
+    return below + graded_tangent(level, law, n) * length;
 }
 
 /// Marks the flow path beside a river cell with the deficit of the terrain there.
@@ -282,16 +281,6 @@ template <class Take> void spread(SomeCells const& marks, TerrainLevel const& le
     }
 }
 
-void add_firmness(TerrainLevel& level, std::size_t i, float more) {
-    if (more == 0.0F || level.type[i] == CellType::river) {
-        return;
-    }
-    level.firmness.set(i, level.firmness.or_zero(i) + more, level.type.size());
-    level.rock.set_erodibility(i, level.rock.erodibility(i) *
-                                      static_cast<float>(portable::exp(static_cast<double>(-more))));
-    level.rock.set_cap(i, level.rock.cap(i) * static_cast<float>(portable::exp(static_cast<double>(of_cap * more))));
-}
-
 } // namespace
 
 void set_erodibility(TerrainLevel& level, ErodibilityFields const& fields, ErodibilityParams const& params,
@@ -321,7 +310,17 @@ void set_erodibility(TerrainLevel& level, ErodibilityFields const& fields, Erodi
     level.rock = Rock(std::move(values));
 }
 
-void reduce_erodibility(TerrainLevel& level, EquilibriumLaw const& law) {
+void add_firmness(TerrainLevel& level, std::size_t i, float more) {
+    if (more == 0.0F || level.type[i] == CellType::river) {
+        return;
+    }
+    level.firmness.set(i, level.firmness.or_zero(i) + more, level.type.size());
+    level.rock.set_erodibility(i, level.rock.erodibility(i) *
+                                      static_cast<float>(portable::exp(static_cast<double>(-more))));
+    level.rock.set_cap(i, level.rock.cap(i) * static_cast<float>(portable::exp(static_cast<double>(of_cap * more))));
+}
+
+void reduce_erodibility(TerrainLevel& level, EquilibriumLaw const& law, float firmest) {
     RiverCells const& rivers = level.rivers;
     SomeCells marks;
     for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
@@ -341,6 +340,7 @@ void reduce_erodibility(TerrainLevel& level, EquilibriumLaw const& law) {
 void change_erodibility_at_crests(TerrainLevel& level, Run const& run) {
     WallParams walls;
     walls.reach = reach_cells / level.side;
+    constexpr float firmest = 2.0F; // [log]
     Cells<float> const lack = land_off_crests(level, walls, run);
     for (std::size_t i = 0; i < lack.size(); ++i) {
         float const has = level.firmness.or_zero(i);

@@ -165,34 +165,10 @@ private:
     RiverCells out_;
 };
 
-/// Steps to the neighbours already visited by a pass in row order.
-constexpr std::array<std::size_t, 4> before = {4, 5, 6, 7};
-
 void take_nearer(NearestRiver& near, std::size_t i, std::size_t from, float length) {
     if (near.distance[from] + length < near.distance[i]) {
         near.distance[i] = near.distance[from] + length;
         near.number[i] = near.number[from];
-    }
-}
-
-/// Calls take(cell, neighbour, distance between them) in two passes over rows, of which the first and the last take
-/// nothing.
-template <class Take> void spread_out(TerrainLevel const& level, std::size_t height, Take take) {
-    auto const offsets = level.offsets();
-    auto const width = static_cast<std::size_t>(level.width);
-    for (std::size_t row = 1; row + 1 < height; ++row) {
-        for (std::size_t i = row * width + 1; i + 1 < (row + 1) * width; ++i) {
-            for (std::size_t const k : before) {
-                take(i, moved(i, offsets[k]), step_lengths[k]);
-            }
-        }
-    }
-    for (std::size_t row = height - 2; row > 0; --row) {
-        for (std::size_t i = (row + 1) * width - 2; i > row * width; --i) {
-            for (std::size_t const k : before) {
-                take(i, moved(i, -offsets[k]), step_lengths[k]);
-            }
-        }
     }
 }
 
@@ -202,14 +178,39 @@ void spread_out(NearestRiver& near, TerrainLevel const& level) {
                [&](std::size_t i, std::size_t from, float length) { take_nearer(near, i, from, length); });
 }
 
-/// Distances of nearest_river().
+/// Lowers distances to those by way of the row above or below.
+void take_from_row(float* here, float const* other, std::int64_t width) {
+    for (std::int64_t col = 1; col + 1 < width; ++col) {
+        float const aslant = std::min(other[col - 1], other[col + 1]) + step_lengths[1];
+        here[col] = std::min(here[col], std::min(other[col] + 1.0F, aslant));
+    }
+}
+
+/// Distances of nearest_river(), in two passes over rows: what a row takes from the other does not wait for the cell
+/// beside.
 Cells<float> river_distances(TerrainLevel const& level, std::vector<float> const& head_start) {
     Cells<float> far(static_cast<std::size_t>(level.cells()), std::numeric_limits<float>::infinity());
     for (std::size_t n = 0; n < head_start.size(); ++n) {
         far[level.rivers.cell[n]] = -head_start[n];
     }
-    spread_out(level, static_cast<std::size_t>(level.height),
-               [&](std::size_t i, std::size_t from, float length) { far[i] = std::min(far[i], far[from] + length); });
+    for (std::int64_t row = 1; row + 1 < level.height; ++row) {
+        float* const here = &far[row * level.width];
+        take_from_row(here, here - level.width, level.width);
+        float beside = here[0];
+        for (std::int64_t col = 1; col + 1 < level.width; ++col) {
+            beside = std::min(here[col], beside + 1.0F);
+            here[col] = beside;
+        }
+    }
+    for (std::int64_t row = level.height - 2; row > 0; --row) {
+        float* const here = &far[row * level.width];
+        take_from_row(here, here + level.width, level.width);
+        float beside = here[level.width - 1];
+        for (std::int64_t col = level.width - 2; col > 0; --col) {
+            beside = std::min(here[col], beside + 1.0F);
+            here[col] = beside;
+        }
+    }
     return far;
 }
 
@@ -324,7 +325,6 @@ private:
 };
 
 constexpr double half_stretch = 24.0;   // [finest cells]
-constexpr float fall_of_heads = 0.05F;  // a sixth of the steepest tangent
 constexpr float fall_of_large = 0.005F; // the fall of rivers that drain the whole grid
 
 /// Means over 2 reach + 1 neighbours on a ring.
@@ -353,7 +353,20 @@ float above_rivers(TerrainLevel const& level, std::size_t i, float z) {
     return z;
 }
 
-/// By inner cell, the lowest possible valley: a large river still falls from it to one of the level.
+std::vector<double> heights_of(TerrainLevel const& level, BoundaryCells::Part const& part, Cells<float> const& lowest) {
+    std::vector<double> heights(part.cell.size());
+    for (std::size_t k = 0; k < heights.size(); ++k) {
+        float z = level.z[part.river[k]];
+        if (!lowest.empty() && level.type[part.cell[k]] != CellType::sea) {
+            z = valley_beyond(z, part.far[k], lowest[part.inner[k]]);
+        }
+        heights[k] = static_cast<double>(z);
+    }
+    return heights;
+}
+
+} // namespace
+
 Cells<float> lowest_valleys(TerrainLevel const& level) {
     float const each = fall_of_large * level.side;
     std::vector<float> head_start(level.rivers.cell.size());
@@ -364,19 +377,10 @@ Cells<float> lowest_valleys(TerrainLevel const& level) {
     return lowest;
 }
 
-std::vector<double> heights_of(TerrainLevel const& level, BoundaryCells::Part const& part, Cells<float> const& lowest) {
-    std::vector<double> heights(part.cell.size());
-    for (std::size_t k = 0; k < heights.size(); ++k) {
-        float z = level.z[part.river[k]];
-        if (!lowest.empty() && level.type[part.cell[k]] != CellType::sea) {
-            z = std::min(z, std::max(z - fall_of_heads * part.far[k], lowest[part.inner[k]]));
-        }
-        heights[k] = static_cast<double>(z);
-    }
-    return heights;
+float valley_beyond(float river, float far, float lowest) {
+    constexpr float fall_of_heads = 0.05F; // a sixth of the steepest tangent
+    return std::min(river, std::max(river - fall_of_heads * far, lowest));
 }
-
-} // namespace
 
 void mark_held(RiverCells& rivers) {
     std::vector<Hold>& hold = rivers.hold;

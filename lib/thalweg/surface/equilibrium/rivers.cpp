@@ -45,7 +45,7 @@ std::vector<float> greatest_heights(TerrainLevel const& level, EquilibriumLaw co
             continue;
         }
         auto const r = static_cast<std::size_t>(rivers.receiver[n]);
-        float const fall = graded_tangent(level, law, rivers.cell[n]) * level.side * step_lengths[rivers.direction[n]];
+        float const fall = graded_tangent(level, law, n) * level.side * step_lengths[rivers.direction[n]];
         float const below = most[n] - kept_share * fall;
         if (below < most[r] && level.area[rivers.cell[r]] / great <= area[n]) {
             most[r] = below;
@@ -153,7 +153,7 @@ std::vector<float> graded_falls(TerrainLevel const& level, EquilibriumLaw const&
     std::vector<float> fall(rivers.cell.size(), 0.0F);
     for (std::size_t n = 0; n < fall.size(); ++n) {
         if (rivers.receiver[n] >= 0) {
-            fall[n] = graded_tangent(level, law, rivers.cell[n]) * level.side * step_lengths[rivers.direction[n]];
+            fall[n] = graded_tangent(level, law, n) * level.side * step_lengths[rivers.direction[n]];
         }
     }
     return fall;
@@ -315,6 +315,9 @@ void compact(RiverCells& rivers, std::vector<std::uint8_t> const& gone) {
         if (!rivers.asked.empty()) {
             rivers.asked[kept] = rivers.asked[n];
         }
+        if (!rivers.grade.empty()) {
+            rivers.grade[kept] = rivers.grade[n];
+        }
         place[n] = static_cast<std::int32_t>(kept++);
     }
     rivers.cell.resize(kept);
@@ -324,6 +327,7 @@ void compact(RiverCells& rivers, std::vector<std::uint8_t> const& gone) {
     rivers.number.resize(kept);
     rivers.hold.resize(rivers.hold.empty() ? 0 : kept);
     rivers.asked.resize(rivers.asked.empty() ? 0 : kept);
+    rivers.grade.resize(rivers.grade.empty() ? 0 : kept);
 }
 
 std::vector<std::int64_t> remove_tips(TerrainLevel& level, std::vector<std::uint8_t> const& marked, TipBanks banks) {
@@ -446,11 +450,12 @@ private:
 
 } // namespace
 
-float graded_tangent(TerrainLevel const& level, EquilibriumLaw const& law, std::uint32_t i) {
+float graded_tangent(TerrainLevel const& level, EquilibriumLaw const& law, std::size_t n) {
+    std::uint32_t const i = level.rivers.cell[n];
     float const area = static_cast<float>(level.area[i]) * level.side * level.side + law.source_area;
     float const uplift = level.uplift.empty() ? 1.0F : level.uplift[i];
     float const graded = creep_brings * uplift / (level.rock.erodibility(i) * law.power(area));
-    return std::min(graded, share_of_cap * std::min(level.rock.cap(i), steepest_tangent));
+    return std::min(level.rivers.grade_of(n) * graded, share_of_cap * std::min(level.rock.cap(i), steepest_tangent));
 }
 
 std::vector<float> heights_through(RiverCells const& rivers, std::vector<float> const& fall, std::vector<float> asked) {
@@ -476,7 +481,7 @@ void relax_rivers(TerrainLevel& level, EquilibriumLaw const& law) {
             continue;
         }
         float const length = level.side * step_lengths[rivers.direction[n]];
-        float const z = std::min(below + graded_tangent(level, law, i) * length, most[n]);
+        float const z = std::min(below + graded_tangent(level, law, n) * length, most[n]);
         level.z[i] = std::max(z, below + least_tangent * length);
     }
 }

@@ -41,7 +41,11 @@ void set_erodibility(TerrainLevel& level, ErodibilityFields const& fields, Erodi
 /// Lowers erodibility along flow paths beside rivers whose heights the terrain there does not reach, so that the
 /// terrain rises to them and they need no walls: the divide between a long and a short river lies close to the head of
 /// the long one.
-void reduce_erodibility(TerrainLevel& level, EquilibriumLaw const& law);
+/// \param firmest [log] the largest decrease
+void reduce_erodibility(TerrainLevel& level, EquilibriumLaw const& law, float firmest);
+
+/// Makes the rock of a cell firmer by some [log], with steeper slopes; below 0 softer. A river's cell stays.
+void add_firmness(TerrainLevel& level, std::size_t i, float more);
 
 /// The same on the lower sides of crests; on the higher ones it increases.
 void change_erodibility_at_crests(TerrainLevel& level, Run const& run);

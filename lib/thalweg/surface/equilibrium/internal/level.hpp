@@ -127,9 +127,11 @@ struct RiverCells {
     std::vector<float> asked;           ///< prescribed height; NaN: free; empty: all free
     std::vector<std::int64_t> number;   ///< in the caller's Channels; -1: beyond its grid
     std::vector<Hold> hold = {};        ///< empty: no lake has a level
+    std::vector<float> grade = {};      ///< [0, 1] of the graded tangent; empty: 1 everywhere
 
     Hold hold_of(std::size_t n) const { return hold.empty() ? Hold::none : hold[n]; }
     /// Whether a lake's level decides on its height.
+    float grade_of(std::size_t n) const { return grade.empty() ? 1.0F : grade[n]; }
     bool is_held(std::size_t n) const { return hold_of(n) == Hold::below || hold_of(n) == Hold::outlet; }
 };
 
@@ -415,6 +417,30 @@ void each_upstream(TerrainLevel const& level, CellType most, Run const& run, Vis
             }
         }
     });
+}
+
+/// Steps to the neighbours already visited by a pass in row order.
+inline constexpr std::array<std::size_t, 4> steps_before = {4, 5, 6, 7};
+
+/// Calls take(cell, neighbour, distance between them [cells]) in two passes over rows, of which the first and the last
+/// take nothing.
+template <class Take> void spread_out(TerrainLevel const& level, std::size_t height, Take take) {
+    auto const offsets = level.offsets();
+    auto const width = static_cast<std::size_t>(level.width);
+    for (std::size_t row = 1; row + 1 < height; ++row) {
+        for (std::size_t i = row * width + 1; i + 1 < (row + 1) * width; ++i) {
+            for (std::size_t const k : steps_before) {
+                take(i, moved(i, offsets[k]), step_lengths[k]);
+            }
+        }
+    }
+    for (std::size_t row = height - 2; row > 0; --row) {
+        for (std::size_t i = (row + 1) * width - 2; i > row * width; --i) {
+            for (std::size_t const k : steps_before) {
+                take(i, moved(i, -offsets[k]), step_lengths[k]);
+            }
+        }
+    }
 }
 
 struct NearestRiver {

@@ -15,7 +15,7 @@
 namespace thalweg::surface {
 
 /// Tangent of a graded river cell by its contributing area, at most a share of the cap.
-float graded_tangent(TerrainLevel const& level, EquilibriumLaw const& law, std::uint32_t i);
+float graded_tangent(TerrainLevel const& level, EquilibriumLaw const& law, std::size_t n);
 
 /// Long profiles of rivers through prescribed heights: between them as steep as necessary, above the highest graded.
 /// \param fall by river cell: of a graded river, to its receiver

@@ -99,6 +99,11 @@ struct BoundaryCells {
 };
 BoundaryCells boundary_cells(TerrainLevel const& level, NearestRiver const& near, Beyond beyond);
 
+/// By inner cell, the lowest possible valley: a large river still falls from it to one of the level.
+Cells<float> lowest_valleys(TerrainLevel const& level);
+/// The height of a valley beyond, some way [finest cells] from the nearest river.
+float valley_beyond(float river, float far, float lowest);
+
 /// Sets their heights: smoothed along the frame, and above the rivers that they touch. Rivers: as high as the nearest.
 /// Valleys: lower by the fall of a river's first reaches, more with distance, but nowhere so low that a large river
 /// could not flow from there to one of the grid.
