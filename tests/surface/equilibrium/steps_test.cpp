@@ -194,6 +194,15 @@ TEST(AreaPower, IsThePower) {
     }
 }
 
+// What is not in its table is the same.
+TEST(AreaPower, IsTheSameBeyondItsTable) {
+    AreaPower const all(0.45, 16.0, 2.0);
+    AreaPower const few(0.45, 16.0, 2.0, 100.0);
+    for (float area = 1.0F; area < 0x1p39F; area *= 1.13F) {
+        EXPECT_EQ(few(area), all(area)) << area;
+    }
+}
+
 // As A^theta far above the bend, level below.
 TEST(AreaPower, BendsToALeast) {
     AreaPower const bent(0.45, 16.0);
@@ -324,6 +333,15 @@ TEST(OrderCells, CountsWhatDrainsThrough) {
             for (std::size_t i = 0; i < cells; ++i) {
                 RC_ASSERT(level.area[i] == counted[i]);
             }
+            auto const draining =
+                std::count_if(level.direction.begin(), level.direction.end(), [](std::int8_t d) { return d >= 0; });
+            std::set<std::size_t> above;
+            for (std::uint32_t const i : level.order) {
+                RC_ASSERT(above.insert(i).second);
+                RC_ASSERT(!above.contains(moved(i, offsets[static_cast<std::size_t>(level.direction[i])])));
+            }
+            bool const in_one_band = threads == 1 || level.height < 6;
+            RC_ASSERT(std::ssize(above) == (in_one_band ? draining : 0));
             std::set<std::size_t> seen;
             std::mutex one_at_a_time;
             auto const visit = [&](std::size_t i) {
@@ -333,10 +351,33 @@ TEST(OrderCells, CountsWhatDrainsThrough) {
                 RC_ASSERT(level.direction[below] == no_direction || seen.contains(below));
             };
             each_upstream(level, CellType::rim, run, visit, 5);
-            RC_ASSERT(static_cast<std::ptrdiff_t>(seen.size()) == std::count_if(level.direction.begin(),
-                                                                                level.direction.end(),
-                                                                                [](std::int8_t d) { return d >= 0; }));
+            RC_ASSERT(std::ssize(seen) == draining);
         }
+    }));
+}
+
+// The order in which areas were counted leads to the same heights as one found from the directions.
+TEST(RelaxTerrain, IsTheSameByAKeptOrder) {
+    EXPECT_TRUE(rc::check("the same by a kept order", [] {
+        TerrainLevel level = any_land();
+        level.direction.assign(level.type.size(), no_direction);
+        for (std::uint32_t const i : level.rivers.cell) {
+            level.z[i] = 0.0F;
+        }
+        flood_terrain(level);
+        thalweg::Run run;
+        run.threads = 1;
+        accumulate_areas(level, run);
+        TerrainLevel without = level;
+        without.order.clear();
+        LandLaw const law{AreaPower(0.45, 4.0), 0.5F};
+        Pull pull;
+        if (*rc::gen::arbitrary<bool>().as("floor")) {
+            pull.floor.assign(level.z.size(), 3.0F);
+        }
+        relax_terrain(level, law, pull, run);
+        relax_terrain(without, law, pull, run);
+        RC_ASSERT(level.z == without.z);
     }));
 }
 

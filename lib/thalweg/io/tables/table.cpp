@@ -315,6 +315,8 @@ void write_file(std::span<Table const> tables, std::string const& crs, std::stri
     CPLConfigOptionSetter const unhurried("OGR_SQLITE_SYNCHRONOUS", "OFF", true);
     // Nor has it a file of what to undo, made and removed for each table: a broken one is removed as a whole.
     CPLConfigOptionSetter const without_journal("OGR_SQLITE_JOURNAL", "MEMORY", true);
+    // A GeoPackage needs no function of SpatiaLite, which takes as long as a small network to start.
+    CPLConfigOptionSetter const without_spatialite("SPATIALITE_LOAD", "NO", true);
     OGRSpatialReference reference = crs.empty() ? OGRSpatialReference() : read_reference(crs);
     refuse_if<BadInput>(format == LayerFormat::geojson && crs.empty(), about.where,
                         "{}: GeoJSON is in degrees (RFC 7946), and the network has no CRS to bring it there: assign "

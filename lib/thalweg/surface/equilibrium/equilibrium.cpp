@@ -255,10 +255,11 @@ TerrainLevel of_region(TerrainLevel const& level) {
 class Solver {
 public:
     /// \param features heights above the first river's end, in units
+    /// \param extent [finest cells] of all levels
     Solver(EquilibriumParams const& params, Channels const& rivers, std::vector<FeatureCell> const& features,
-           Window const& window, Run const& run)
+           Window const& window, double extent, Run const& run)
         : params_(params), rivers_(rivers), features_(features), window_(window), run_(run),
-          law_(params, window.grid.cell_m) {}
+          law_(params, window.grid.cell_m, extent) {}
 
     /// The frame is set from the nearest rivers where the region has no information.
     void solve(TerrainLevel& level, std::size_t number, std::size_t levels, RegionFrame const& frame) {
@@ -443,6 +444,17 @@ bool shows_terrain(TerrainLevel const& level, Grid const& grid) {
     return level.side > 1.0F && cells <= most_cells && cells >= least_cells;
 }
 
+/// [finest cells] of the largest level.
+double extent_of(std::vector<LevelInput> const& levels) {
+    double most = 1.0;
+    for (std::size_t number = 0; number < levels.size(); ++number) {
+        LevelExtent const& extent = levels[number].extent;
+        double const cell = std::ldexp(1.0, static_cast<int>(2 * number));
+        most = std::max(most, static_cast<double>(extent.width) * static_cast<double>(extent.height) * cell);
+    }
+    return most;
+}
+
 /// Solves all levels; rivers' heights are in solver units, or free.
 /// \param conversion of prescribed heights; null: none are
 EquilibriumSolution solved(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
@@ -451,7 +463,7 @@ EquilibriumSolution solved(Channels const& rivers, EquilibriumFields const& fiel
     Region const region = region_around(rivers, fields, params);
     std::vector<LevelInput> levels = level_inputs(land, region, rivers.grid, params.seed);
     Window const window{rivers.grid, fields.land, land.margin};
-    Solver solver(params, rivers, fields.features, window, run);
+    Solver solver(params, rivers, fields.features, window, extent_of(levels), run);
     ErodibilityParams const rock = erodibility_of(params, window);
     TerrainLevel level;
     TerrainLevel around; // the region's finest level

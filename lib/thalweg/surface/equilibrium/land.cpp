@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <bit>
 #include <cstring>
 #include <mutex>
 #include <optional>
@@ -70,8 +72,9 @@ std::int8_t steepest_river(TerrainLevel const& level, std::size_t i, std::array<
 /// mostly stay in the processor's cache.
 /// \param awaited by cell: donors whose water has not arrived
 /// \param leaving receives the cells whose water leaves the band
-void follow_in_band(TerrainLevel& level, std::int64_t top, std::int64_t bottom, Cells<std::uint8_t>& awaited,
-                    std::vector<std::uint32_t>& leaving) {
+/// \return number of the cells that it followed: all are in level.order if that has places, which are a power of two
+std::size_t follow_in_band(TerrainLevel& level, std::int64_t top, std::int64_t bottom, Cells<std::uint8_t>& awaited,
+                           std::vector<std::uint32_t>& leaving) {
     constexpr std::int64_t tile = 64;
     constexpr std::size_t most = tile * tile; // paths that are followed at a time: each goes on in one cell or none
     std::int64_t const width = level.width;
@@ -82,30 +85,35 @@ void follow_in_band(TerrainLevel& level, std::int64_t top, std::int64_t bottom, 
     std::int8_t const* const direction = level.direction.data();
     std::uint8_t* const waits = awaited.data();
     std::uint32_t* const area = level.area.data();
-    std::vector<std::uint32_t> ends(most);
+    bool const keeps = !level.order.empty();
+    std::vector<std::uint32_t> some(keeps ? 0 : most);
+    std::uint32_t* const ends = keeps ? level.order.data() : some.data();
+    std::size_t const places = keeps ? level.order.size() : most;
+    std::size_t listed = 0;
+    std::size_t followed = 0;
     for (std::int64_t row = top; row < bottom; row += tile) {
         for (std::int64_t left = 0; left < width; left += tile) {
-            std::size_t listed = 0;
             for (std::int64_t r = row; r < std::min(bottom, row + tile); ++r) {
                 std::int64_t const end = r * width + std::min(width, left + tile);
                 for (std::int64_t i = r * width + left; i < end; ++i) {
-                    ends[listed % most] = static_cast<std::uint32_t>(i);
+                    ends[listed & (places - 1)] = static_cast<std::uint32_t>(i);
                     listed += waits[i] == 0 ? 1U : 0U;
                 }
             }
-            for (std::size_t followed = 0; followed < listed; ++followed) {
-                std::uint32_t const i = ends[followed % most];
+            for (; followed < listed; ++followed) {
+                std::uint32_t const i = ends[followed & (places - 1)];
                 std::size_t const next = moved(i, offsets[direction[i]]);
                 if (next - first >= cells) {
                     leaving.push_back(i);
                     continue;
                 }
                 area[next] += area[i];
-                ends[listed % most] = static_cast<std::uint32_t>(next);
+                ends[listed & (places - 1)] = static_cast<std::uint32_t>(next);
                 listed += --waits[next] == all_came ? 1U : 0U;
             }
         }
     }
+    return listed;
 }
 
 constexpr float tolerance = 1.5F; // relative to the cap
@@ -222,30 +230,36 @@ public:
     }
 
 private:
+    /// Of a row's cells.
+    struct Numbers {
+        explicit Numbers(std::size_t cells) : power(cells), share(cells), erodibility(cells) {}
+        std::vector<float> power;
+        std::vector<float> share;
+        std::vector<float> erodibility;
+    };
+
     /// \param above, below heights of the rows beside these
     void prepare_rows(std::int64_t top, std::int64_t bottom, float const* above, float const* below) const {
         auto const width = static_cast<std::size_t>(level_.width);
         std::vector<float> upper(above, above + width);
         std::vector<float> here(width);
+        Numbers numbers(static_cast<std::size_t>(inner_));
         for (std::int64_t row = top; row < bottom; ++row) {
             std::memcpy(here.data(), &level_.z[row * level_.width], width * sizeof(float));
             float const* const lower = row + 1 == bottom ? below : &level_.z[(row + 1) * level_.width];
-            prepare_row(static_cast<std::size_t>(row * level_.width + 1), {&upper[1], &here[1], &lower[1]});
+            prepare_row(static_cast<std::size_t>(row * level_.width + 1), {&upper[1], &here[1], &lower[1]}, numbers);
             std::swap(upper, here);
         }
     }
 
-    void prepare_row(std::size_t first, std::array<float const*, 3> const& z) const {
+    void prepare_row(std::size_t first, std::array<float const*, 3> const& z, Numbers& numbers) const {
         auto* const relaxation = widest_lanes() == Lanes::avx2 ? &avx2::relaxation_row : &plain::relaxation_row;
         auto const count = static_cast<std::size_t>(inner_);
-        std::vector<float> power(count);
-        std::vector<float> share(count);
-        std::vector<float> erodibility(count);
+        auto& [power, share, erodibility] = numbers;
         level_.rock.erodibilities(first, erodibility);
         float const cell_area = level_.side * level_.side;
-        for (std::size_t c = 0; c < count; ++c) {
-            power[c] = law_.power(static_cast<float>(level_.area[first + c]) * cell_area);
-        }
+        std::transform(&level_.area[first], &level_.area[first] + count, power.data(),
+                       [&](std::uint32_t area) { return law_.power(static_cast<float>(area) * cell_area); });
         RowOfLevel const row{z,
                              erodibility.data(),
                              level_.uplift.empty() ? even_.data() : &level_.uplift[first],
@@ -391,12 +405,17 @@ void accumulate_areas(TerrainLevel& level, Run const& run, std::int64_t rows) {
     });
     std::int64_t const bands = band_count(level, rows, run);
     std::vector<std::vector<std::uint32_t>> leaving(static_cast<std::size_t>(bands));
+    constexpr std::int64_t few = 1 << 19; // that a processor's cache holds with their order
+    bool const keeps = bands == 1 && level.cells() < few;
+    level.order.resize(keeps ? std::bit_ceil(level.direction.size() + 1) : 0);
+    std::vector<std::size_t> followed(leaving.size());
     parallel_ranges(run, bands, 1, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t band = begin; band < end; ++band) {
-            follow_in_band(level, band * level.height / bands, (band + 1) * level.height / bands, awaited,
-                           leaving[band]);
+            followed[band] = follow_in_band(level, band * level.height / bands, (band + 1) * level.height / bands,
+                                            awaited, leaving[band]);
         }
     });
+    level.order.resize(keeps ? followed.front() : 0);
     for (std::vector<std::uint32_t> const& cells : leaving) {
         for (std::uint32_t const from : cells) {
             std::uint32_t at = from;
@@ -415,14 +434,24 @@ void accumulate_areas(TerrainLevel& level, Run const& run, std::int64_t rows) {
 void relax_terrain(TerrainLevel& level, LandLaw const& law, Pull const& pull, Run const& run) {
     Relaxer const relaxer(level, law, pull);
     relaxer.prepare(run);
+    auto const sweep = [&](auto floor_of) {
+        Sweep const visit(level, relaxer.length(), floor_of);
+        if (level.order.empty()) {
+            each_upstream(level, CellType::rim, run, visit);
+            return;
+        }
+        for (std::size_t n = level.order.size(); n-- > 0;) {
+            if (std::uint32_t const i = level.order[n]; level.type[i] <= CellType::rim) {
+                visit(i);
+            }
+        }
+    };
     if (pull.floor.empty()) {
-        each_upstream(level, CellType::rim, run,
-                      Sweep(level, relaxer.length(), [](std::size_t, float at) { return at; }));
+        sweep([](std::size_t, float at) { return at; });
     } else {
-        each_upstream(level, CellType::rim, run, Sweep(level, relaxer.length(), [&](std::size_t i, float at) {
-                          return std::max(at, pull.floor[i]);
-                      }));
+        sweep([&](std::size_t i, float at) { return std::max(at, pull.floor[i]); });
     }
+    level.order.clear();
 }
 
 Cells<std::uint8_t> donors_of(TerrainLevel const& level, CellType most, Run const& run) {

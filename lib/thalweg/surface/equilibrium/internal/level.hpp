@@ -29,17 +29,20 @@ namespace thalweg::surface {
 /// binary digits. bend_area: the area below which the power approaches a constant; 0: none.
 class AreaPower {
 public:
-    explicit AreaPower(double exponent, double bend_area = 0.0, double factor = 1.0) {
-        double const least = least_of(bend_area, exponent);
+    /// \param most area in the table; larger ones take longer
+    explicit AreaPower(double exponent, double bend_area = 0.0, double factor = 1.0, double most = 0x1p40)
+        : exponent_(exponent), least_(least_of(bend_area, exponent)), factor_(factor) {
+        table_.resize(place_of(static_cast<float>(most)) + 1);
         for (std::size_t i = 0; i < table_.size(); ++i) {
-            auto const bits = static_cast<std::uint32_t>((i + first) << dropped);
-            auto const area = static_cast<double>(std::bit_cast<float>(bits));
-            table_[i] = static_cast<float>(factor * bent(area, exponent, least));
+            table_[i] = at(i);
         }
     }
 
-    /// area: 1 <= area < 2^40.
-    float operator()(float area) const { return table_[(std::bit_cast<std::uint32_t>(area) >> dropped) - first]; }
+    /// area: at least 1.
+    float operator()(float area) const {
+        std::size_t const place = place_of(area);
+        return place < table_.size() ? table_[place] : at(place);
+    }
 
     /// \return area ^ exponent without a table.
     static double of(double area, double exponent, double bend_area) {
@@ -56,9 +59,18 @@ private:
                            : portable::pow(area, exponent);
     }
 
+    static std::size_t place_of(float area) { return (std::bit_cast<std::uint32_t>(area) >> dropped) - first; }
+    [[gnu::noinline]] float at(std::size_t place) const { // seldom, so that loops keep to the table
+        auto const bits = static_cast<std::uint32_t>((place + first) << dropped);
+        return static_cast<float>(factor_ * bent(static_cast<double>(std::bit_cast<float>(bits)), exponent_, least_));
+    }
+
     static constexpr std::uint32_t dropped = 15;
     static constexpr std::size_t first = std::size_t{127} << 8;
-    std::vector<float> table_ = std::vector<float>(std::size_t{40} << 8);
+    double exponent_;
+    double least_; ///< of the bend
+    double factor_;
+    std::vector<float> table_;
 };
 
 /// How hillsides are cut and creep: U + creep lap z = power(A) S, lengths, heights and areas in cells of the finest
@@ -72,17 +84,18 @@ struct LandLaw {
 /// U + D lap z = K A^theta S in the solver's units: lengths, heights and areas in cells of the finest level, U = 1 by
 /// default, and K such that slopes at small areas are the same at any cell size and stay well within float precision.
 struct EquilibriumLaw {
-    EquilibriumLaw(EquilibriumParams const& params, double cell_m)
-        : EquilibriumLaw(params, cell_m, incision(params, cell_m)) {}
+    /// \param most [finest cells] area that is common
+    EquilibriumLaw(EquilibriumParams const& params, double cell_m, double most)
+        : EquilibriumLaw(params, cell_m, incision(params, cell_m), most) {}
 
     AreaPower power; ///< K A^theta, of the input rivers
     LandLaw land;
     float source_area; ///< [finest cells] contributing area at a drawn source
 
 private:
-    EquilibriumLaw(EquilibriumParams const& params, double cell_m, double k)
-        : power(params.theta, 0.0, k),
-          land{AreaPower(params.theta, debris_cells(params, cell_m), k),
+    EquilibriumLaw(EquilibriumParams const& params, double cell_m, double k, double most)
+        : power(params.theta, 0.0, k, most),
+          land{AreaPower(params.theta, debris_cells(params, cell_m), k, most),
                static_cast<float>(
                    k * portable::pow(std::min(params.hillslope_m / cell_m, most_creep), 2.0 * params.theta + 1.0))},
           source_area(static_cast<float>(source_area_m2 / (cell_m * cell_m))) {}
@@ -202,8 +215,10 @@ struct TerrainLevel {
     Cells<std::uint32_t> area;           ///< [cells of this level]; after relax_terrain() of river cells alone
     std::vector<Inflow> inflow;          ///< water from beyond the frame
     std::vector<std::uint32_t> crests;   ///< land cells that no water crosses where it finds another way, ascending
-    Cells<std::uint8_t> is_crest;        ///< by cell; empty: there are none
-    SomeCells firmness;                  ///< [log] decrease of erodibility below the fields' values
+    std::vector<std::uint32_t> order; ///< of a small level, from accumulate_areas() to relax_terrain(): the cells that
+                                      ///< drain to a neighbour, each after those that drain to it; empty: not kept
+    Cells<std::uint8_t> is_crest;     ///< by cell; empty: there are none
+    SomeCells firmness;               ///< [log] decrease of erodibility below the fields' values
     /// most by which a bank stands above the river to which it drains
     float bank_rise = std::numeric_limits<float>::infinity();
 
@@ -327,9 +342,16 @@ public:
         std::vector<std::uint32_t> starts(static_cast<std::size_t>((bottom - top) * (right - left)));
         std::size_t count = 0;
         for (std::int64_t row = top; row < bottom; ++row) {
-            for (std::int64_t i = row * level_.width + left; i < row * level_.width + right; ++i) {
-                starts[count] = static_cast<std::uint32_t>(i);
-                count += type[i] > most_ && donors_[i] != 0 ? 1U : 0U;
+            std::int64_t const end = row * level_.width + right;
+            for (std::int64_t i = row * level_.width + left; i < end;) {
+                std::int64_t const next = std::min(i + 8, end);
+                if (next - i == 8 && none_above(type + i)) {
+                    i = next;
+                }
+                for (; i < next; ++i) {
+                    starts[count] = static_cast<std::uint32_t>(i);
+                    count += type[i] > most_ && donors_[i] != 0 ? 1U : 0U;
+                }
             }
         }
         first_ = 0;
@@ -349,6 +371,14 @@ private:
         std::array<Four, 2> offset{};
         std::size_t count = 0;
     };
+
+    /// Whether no type of eight cells is above the highest to visit: as mostly, where there are few rivers.
+    bool none_above(CellType const* type) const {
+        constexpr std::uint64_t each = 0x0101010101010101;
+        std::uint64_t eight = 0;
+        std::memcpy(&eight, type, sizeof eight);
+        return ((eight + (0x7FU - static_cast<std::uint64_t>(most_)) * each) & 0x80U * each) == 0;
+    }
 
     void follow(std::size_t count) {
         reserve(count);
