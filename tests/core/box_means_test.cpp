@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -48,11 +49,11 @@ Raster<float> means_slowly(Raster<float> const& fine, std::int64_t columns) {
     return out;
 }
 
-/// A rough land with holes.
-Raster<float> rough(std::int64_t width, std::int64_t height) {
+/// A rough land, with holes unless it is to be whole.
+Raster<float> rough(std::int64_t width, std::int64_t height, bool is_whole = false) {
     Raster<float> dem(Grid{width, height, 10.0, 100.0, 900.0, ""});
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        dem[i] = (i * 37 + 11) % 23 < 6 ? none : static_cast<float>((i * 7919) % 101);
+        dem[i] = !is_whole && (i * 37 + 11) % 23 < 6 ? none : static_cast<float>((i * 7919) % 101);
     }
     return dem;
 }
@@ -60,8 +61,10 @@ Raster<float> rough(std::int64_t width, std::int64_t height) {
 } // namespace
 
 TEST(BoxMeans, AreTheMeansOfWhatTheCoarseCellsCover) {
-    for (auto const& [width, height] : {std::pair<std::int64_t, std::int64_t>{1, 1}, {7, 5}, {16, 9}, {9, 16}}) {
-        Raster<float> const fine = rough(width, height);
+    using Size = std::tuple<std::int64_t, std::int64_t, bool>;
+    for (auto const& [width, height, is_whole] :
+         {Size{1, 1, false}, {7, 5, false}, {16, 9, false}, {9, 16, false}, {16, 9, true}, {9, 16, true}}) {
+        Raster<float> const fine = rough(width, height, is_whole);
         for (std::int64_t columns = 1; columns <= width; ++columns) {
             Raster<float> const means = box_means(fine, columns);
             Raster<float> const slow = means_slowly(fine, columns);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <type_traits>
 #include <vector>
 
 namespace thalweg {
@@ -18,6 +20,14 @@ struct Stretch {
     double last = 1.0; ///< of a single cell: 1, and first is its whole share
 
     double weight(std::int64_t i) const { return (i == begin ? first : 1.0) * (i + 1 == end ? last : 1.0); }
+    /// \param of number by cell
+    double weighted_sum(auto const& of) const {
+        double sum = 0.0 + weight(begin) * of(begin);
+        for (std::int64_t i = begin + 1; i + 1 < end; ++i) {
+            sum += of(i);
+        }
+        return begin + 1 < end ? sum + last * of(end - 1) : sum;
+    }
 };
 
 /// \param side [fine cells] of a coarse cell, >= 1
@@ -50,44 +60,73 @@ void add_row(std::span<float const> row, double weight, Sums& sums) {
     }
 }
 
-void add_row(std::span<std::uint8_t const> row, double weight, Sums& sums) {
+/// As add_row() where all cells count: what these weigh is the same in every column.
+/// \return whether all do; otherwise the sums are not to be used
+bool add_whole_row(std::span<float const> row, double weight, std::span<double> sums) {
+    std::uint32_t holes = 0;
     for (std::size_t c = 0; c < row.size(); ++c) {
-        sums.sum[c] += row[c] != 0 ? weight : 0.0;
-        sums.weight[c] += weight;
+        holes |= std::isnan(row[c]) ? 1U : 0U;
+        sums[c] += weight * static_cast<double>(row[c]);
+    }
+    return holes == 0;
+}
+
+bool add_whole_row(std::span<std::uint8_t const> row, double weight, std::span<double> sums) {
+    for (std::size_t c = 0; c < row.size(); ++c) {
+        sums[c] += row[c] != 0 ? weight : 0.0;
+    }
+    return true;
+}
+
+/// \return whether all cells of the rows count; otherwise the sums are not to be used
+template <class T> bool sum_whole_rows(Raster<T> const& fine, Stretch const& down, std::span<double> sums) {
+    std::ranges::fill(sums, 0.0);
+    for (std::int64_t r = down.begin; r < down.end; ++r) {
+        if (!add_whole_row(fine.row(r), down.weight(r), sums)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void sum_rows_with_holes(Raster<float> const& fine, Stretch const& down, Sums& sums) {
+    std::ranges::fill(sums.sum, 0.0);
+    std::ranges::fill(sums.weight, 0.0);
+    for (std::int64_t r = down.begin; r < down.end; ++r) {
+        add_row(fine.row(r), down.weight(r), sums);
     }
 }
 
 /// Calls put(coarse cell, sum, weight, area) for every cell.
 template <class T, class Put> void each_mean(Raster<T> const& fine, Grid const& grid, Run const& run, Put const& put) {
     double const side = static_cast<double>(fine.width()) / static_cast<double>(grid.width);
+    auto const one = [](std::int64_t) { return 1.0; };
     std::vector<Stretch> across;
+    std::vector<double> wide;
     for (std::int64_t col = 0; col < grid.width; ++col) {
         across.push_back(stretch_of(col, side, fine.width()));
+        wide.push_back(across.back().weighted_sum(one));
     }
     constexpr std::int64_t grain = 16;
     parallel_ranges(run, grid.height, grain, [&](std::int64_t first, std::int64_t last) {
         Sums sums{std::vector<double>(fine.width()), std::vector<double>(fine.width())};
         for (std::int64_t row = first; row < last; ++row) {
-            std::ranges::fill(sums.sum, 0.0);
-            std::ranges::fill(sums.weight, 0.0);
             Stretch const down = stretch_of(row, side, fine.height());
-            double tall = 0.0;
-            for (std::int64_t r = down.begin; r < down.end; ++r) {
-                add_row(fine.row(r), down.weight(r), sums);
-                tall += down.weight(r);
+            bool const is_whole = sum_whole_rows(fine, down, sums.sum);
+            if constexpr (std::is_same_v<T, float>) {
+                if (!is_whole) {
+                    sum_rows_with_holes(fine, down, sums);
+                }
             }
+            double const tall = down.weighted_sum(one);
+            auto const sum = [from = sums.sum.data()](std::int64_t c) { return from[c]; };
+            auto const weight = [from = sums.weight.data()](std::int64_t c) { return from[c]; };
+            auto const even = [tall](std::int64_t) { return tall; };
             for (std::int64_t col = 0; col < grid.width; ++col) {
                 Stretch const& cells = across[static_cast<std::size_t>(col)];
-                double sum = 0.0;
-                double weight = 0.0;
-                double wide = 0.0;
-                for (std::int64_t c = cells.begin; c < cells.end; ++c) {
-                    double const share = cells.weight(c);
-                    sum += share * sums.sum[static_cast<std::size_t>(c)];
-                    weight += share * sums.weight[static_cast<std::size_t>(c)];
-                    wide += share;
-                }
-                put(Cell{col, row}, sum, weight, wide * tall);
+                put(Cell{col, row}, cells.weighted_sum(sum),
+                    is_whole ? cells.weighted_sum(even) : cells.weighted_sum(weight),
+                    wide[static_cast<std::size_t>(col)] * tall);
             }
         }
     });

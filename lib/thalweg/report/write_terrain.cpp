@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -59,14 +60,16 @@ double relief_m(make::MakeResult const& t) {
 }
 
 /// In the recipe's unit.
-double contour_interval(make::MakeResult const& t) {
+/// \param known relief [m]; nothing: it is measured where it is needed
+double contour_interval(make::MakeResult const& t, std::optional<double> known = {}) {
     double const asked = t.recipe.output.contour_interval;
-    return asked > 0.0 ? asked : round_interval(relief_m(t) / metres_in(t.recipe.output.units));
+    return asked > 0.0 ? asked : round_interval((known ? *known : relief_m(t)) / metres_in(t.recipe.output.units));
 }
 
 /// For pictures and the page, which are in metres.
-double contour_interval_m(make::MakeResult const& t) {
-    return t.recipe.output.units == HeightUnit::metre ? contour_interval(t) : round_interval(relief_m(t));
+double contour_interval_m(make::MakeResult const& t, std::optional<double> known = {}) {
+    return t.recipe.output.units == HeightUnit::metre ? contour_interval(t, known)
+                                                      : round_interval(known ? *known : relief_m(t));
 }
 
 /// Writes the network in another schema, with confluences split if it limits the number of arcs at a node.
@@ -243,7 +246,8 @@ draw::Picture map_with(make::MakeResult const& t, SurfaceParts& parts, draw::Map
     sheet.orders = orders_of(t);
     sheet.ridges = &t.terrain.ground.ridges;
     sheet.areas_m2 = t.terrain.water.areas.ds_area_m2;
-    map.contour_interval_m = contour_interval_m(t);
+    auto const relief = sheet.whole ? std::optional(sheet.whole->high_m - sheet.whole->low_m) : std::nullopt;
+    map.contour_interval_m = contour_interval_m(t, relief);
     map.remark = remark_on_heights(t);
     if (land.is_whole()) {
         for (auto const& [z, line] : parts.contours(run)) {
