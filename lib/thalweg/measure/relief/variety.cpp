@@ -268,19 +268,6 @@ void measure_banks(Raster<float> const& dem, Mask const& is, double rise_m, Vari
     }
 }
 
-bool on_divide(Mask const& is, Cell at) {
-    std::uint8_t sides = 0;
-    for (std::int64_t row = std::max<std::int64_t>(at.row - 1, 0); row <= std::min(at.row + 1, is.height() - 1);
-         ++row) {
-        for (std::int64_t col = std::max<std::int64_t>(at.col - 1, 0); col <= std::min(at.col + 1, is.width() - 1);
-             ++col) {
-            std::uint8_t const one = is[Cell{col, row}];
-            sides = static_cast<std::uint8_t>(sides | ((one & river) != 0 ? inside : one & (inside | outside)));
-        }
-    }
-    return sides == (inside | outside);
-}
-
 /// Marks what drains to river cells and what drains past all: each flow path is followed to a cell that is known.
 void mark_sides(Raster<float> const& dem, flow::FlowField const& drainage, Run const& run, Mask& is) {
     std::vector<std::int64_t> path;
@@ -305,10 +292,31 @@ void mark_sides(Raster<float> const& dem, flow::FlowField const& drainage, Run c
     }
 }
 
+/// Marks the cells that drain to a river beside one that drains past all, and those.
 void mark_divide(Mask& is) {
-    for (std::int64_t i = 0; i < is.cells(); ++i) {
-        if (is[i] != 0 && on_divide(is, is.grid().at(i))) {
+    std::int64_t const width = is.width();
+    auto const side = [](std::uint8_t bits) {
+        return static_cast<std::uint8_t>((bits & river) != 0 ? inside : bits & (inside | outside));
+    };
+    auto const compare = [&](std::int64_t i, std::int64_t other) {
+        if ((side(is[i]) | side(is[other])) == (inside | outside)) {
             is[i] = static_cast<std::uint8_t>(is[i] | divide);
+            is[other] = static_cast<std::uint8_t>(is[other] | divide);
+        }
+    };
+    for (std::int64_t row = 0; row < is.height(); ++row) {
+        for (std::int64_t col = 0; col < width; ++col) {
+            std::int64_t const i = row * width + col;
+            if (col + 1 < width) {
+                compare(i, i + 1);
+            }
+            if (row + 1 < is.height()) {
+                compare(i, i + width);
+            }
+            if (row + 1 < is.height() && col + 1 < width) {
+                compare(i, i + width + 1);
+                compare(i + 1, i + width);
+            }
         }
     }
 }
