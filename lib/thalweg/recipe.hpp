@@ -8,6 +8,7 @@
 #include <thalweg/recipe/frame.hpp>
 #include <thalweg/recipe/make_input.hpp>
 #include <thalweg/recipe/plan.hpp>
+#include <thalweg/recipe/presets.hpp>
 #include <thalweg/recipe/read_inputs.hpp>
 #include <thalweg/recipe/recipe.hpp>
 #include <thalweg/recipe/recipe_fields.hpp>

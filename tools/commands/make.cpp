@@ -322,6 +322,10 @@ Command add_make(CLI::App& app, Session& session) {
                    "convert; or a "
                    "DEM. Without it, thalweg grows a valley on 1024x1024 cells.")
         ->type_name("FILE(toml,gpkg,shp,geojson,json,fgb,kml,gpx,gdb,zip,tif,tiff,asc)");
+    app.add_option("--preset", options->params.preset,
+                   "Make land of this kind: give the keys of a preset to what neither the recipe nor --set gives. "
+                   "`thalweg recipe --preset NAME` prints it as a recipe.")
+        ->check(CLI::IsMember(preset_names()));
     add_options_of_make(app, *options, session);
     add_options_of_ensembles(app, *options);
     app.footer(
@@ -338,6 +342,7 @@ Command add_make(CLI::App& app, Session& session) {
         "  thalweg make out/sparse/recipe.toml -o out/again\n"
         "  thalweg make samples/walker_nhdplus.gpkg -o out/walker\n"
         "  thalweg make samples/walker_nhdplus.gpkg --crs EPSG:26910 --set grid.cell=30 -o out/utm\n"
+        "  thalweg make --preset hills -o out/hills\n"
         "  thalweg make out/walker --seed 8 -o out/other\n"
         "  thalweg make samples/walker_nhdplus.gpkg --only dem,network -o out/two\n"
         "  thalweg make samples/walker_nhdplus.gpkg --dry-run\n"

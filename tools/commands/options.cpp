@@ -15,6 +15,7 @@
 
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/network/schema.hpp>
+#include <thalweg/recipe/presets.hpp>
 
 namespace thalweg::tools {
 
@@ -57,6 +58,14 @@ std::vector<std::string> schema_names() {
     std::vector<std::string> names;
     for (io::SchemaTable const& table : io::all_schemas()) {
         names.emplace_back(table.name);
+    }
+    return names;
+}
+
+std::vector<std::string> preset_names() {
+    std::vector<std::string> names;
+    for (recipe::Preset const& preset : recipe::presets()) {
+        names.push_back(preset.name);
     }
     return names;
 }

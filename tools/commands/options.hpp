@@ -23,6 +23,9 @@ namespace thalweg::tools {
 /// \throws BadParameter when one is not QUANTITY=NAME
 std::map<std::string, std::string> fields_by_quantity(std::vector<std::string> const& fields);
 
+/// \return the names of all presets of recipes.
+std::vector<std::string> preset_names();
+
 /// Adds NETWORK, --from (or the names in schema_flag), --field, --layer, --nodes-layer and --source-crs. What --field
 /// names has yet to be parsed.
 void add_network_options(CLI::App& app, std::string& path, io::ReadNetworkParams& read,

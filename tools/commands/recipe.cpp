@@ -13,6 +13,7 @@
 #include <thalweg/commands/make.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/messages.hpp>
+#include <thalweg/recipe/presets.hpp>
 #include <thalweg/recipe/recipe.hpp>
 #include <thalweg/recipe/stages.hpp>
 
@@ -146,34 +147,55 @@ void print_keys(std::string const& word, Session const& session) {
                                         : keys_as_list(keys));
 }
 
+/// A paragraph each.
+std::string presets_in_words() {
+    std::string text;
+    for (recipe::Preset const& preset : recipe::presets()) {
+        text += fmt::format("  {}: {}. Not {}.\n", preset.name, preset.meaning, preset.not_meant);
+    }
+    return text;
+}
+
 } // namespace
 
 Command add_recipe(CLI::App& app, Session& session) {
     auto const dump = std::make_shared<bool>(false);
     auto const rivers = std::make_shared<std::string>();
     auto const source_crs = std::make_shared<std::string>();
+    auto const preset = std::make_shared<std::string>();
     auto const key = std::make_shared<std::string>();
     app.add_option("KEY", *key,
                    "Show this key, such as network.prune, or the keys of this section. Default: every key.");
     add_json_option(app, session);
-    app.add_flag("--dump", *dump, "Print the default recipe as a TOML file.");
+    CLI::Option* const default_one = app.add_flag("--dump", *dump, "Print the default recipe as a TOML file.");
+    CLI::Option* const of_preset =
+        app.add_option("--preset", *preset, "Print the recipe of this preset as a TOML file; see below.")
+            ->check(CLI::IsMember(preset_names()))
+            ->excludes(default_one);
     CLI::Option* const of_rivers =
         app.add_option("--for", *rivers,
                        "Print the recipe that make uses for these rivers: a file of lines, or a folder written by make "
                        "or convert; or for this DEM.")
-            ->type_name("FILE(gpkg,shp,geojson,json,fgb,kml,gpx,gdb,zip,tif,tiff,asc)");
+            ->type_name("FILE(gpkg,shp,geojson,json,fgb,kml,gpx,gdb,zip,tif,tiff,asc)")
+            ->excludes(of_preset);
     app.add_option("--source-crs", *source_crs, "Read rivers whose file has no CRS in this one, as make does.")
         ->type_name("EPSG:N")
         ->needs(of_rivers);
     app.footer("Prints keys with their unit, range and default. thalweg-recipe(5) is the same as a manual page.\n\n"
+               "Presets, which make takes too:\n" +
+               presets_in_words() +
+               "\n"
                "Examples:\n"
                "  thalweg recipe\n"
                "  thalweg recipe network.prune\n"
                "  thalweg recipe surface --json\n"
                "  thalweg recipe --dump > mine.toml\n"
+               "  thalweg recipe --preset hills > hills.toml\n"
                "  thalweg recipe --for samples/walker_nhdplus.gpkg > walker.toml\n");
-    return [dump, rivers, source_crs, key, &session] {
-        if (!rivers->empty()) {
+    return [dump, preset, rivers, source_crs, key, &session] {
+        if (!preset->empty()) {
+            fmt::print("{}", recipe::write_recipe(recipe::with_preset(recipe::default_recipe(), *preset)));
+        } else if (!rivers->empty()) {
             fmt::print("{}", recipe::write_recipe(commands::recipe_for(*rivers, *source_crs, session.run)));
         } else if (*dump) {
             fmt::print("{}", recipe::write_recipe(recipe::default_recipe()));

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/recipe/make_input.hpp>
+#include <thalweg/recipe/presets.hpp>
 #include <thalweg/recipe/recipe_files.hpp>
 #include <thalweg/report/report.hpp>
 
@@ -77,8 +79,9 @@ recipe::Recipe recipe_to_rebuild(RebuildFromParams const& params) {
 } // namespace
 
 recipe::Recipe recipe_asked(MakeParams const& params) {
-    return with_options(params.input.empty() ? recipe_without_file(params.set) : recipe::recipe_from(params.input),
-                        params);
+    recipe::Recipe recipe = with_options(
+        params.input.empty() ? recipe_without_file(params.set) : recipe::recipe_from(params.input), params);
+    return params.preset.empty() ? recipe : recipe::with_preset(std::move(recipe), params.preset);
 }
 
 make::MakeResult run_make(MakeParams const& params, Run const& run) {

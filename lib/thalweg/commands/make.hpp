@@ -20,6 +20,7 @@ struct MakeParams {
     std::string output = "valley"; ///< a folder
     io::Existing existing = io::Existing::refuse;
     std::vector<std::string> set = {}; ///< KEY=VALUE: keys of the recipe, in order
+    std::string preset = {};           ///< of recipe::presets(): for keys that neither input nor set gives; "": none
     /// names of the fields of rivers that hold arc_id, ds_arc, from_node, to_node, direction, key (a rank that falls
     /// downstream) and type
     std::map<std::string, std::string> fields = {};
@@ -28,7 +29,7 @@ struct MakeParams {
 /// Runs `thalweg make`: makes the terrain of a recipe or around rivers and writes the folder, completely or not at all.
 /// \param params recipe or rivers, and options
 /// \return the terrain
-/// \throws BadParameter for a key or field that is unknown
+/// \throws BadParameter for a key or field that is unknown, and as recipe::with_preset()
 /// \throws Error as recipe_from(), UserFiles, make() and write_terrain()
 make::MakeResult run_make(MakeParams const& params, Run const& run = {});
 

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/recipe/presets.hpp>
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <thalweg/core/run/messages.hpp>
+#include <thalweg/core/run/refuse.hpp>
+#include <thalweg/recipe/condition.hpp>
+#include <thalweg/recipe/recipe_keys.hpp>
+
+namespace thalweg::recipe {
+namespace {
+
+Preset const& preset_named(std::string const& name) {
+    std::vector<std::string> names;
+    for (Preset const& preset : presets()) {
+        if (preset.name == name) {
+            return preset;
+        }
+        names.push_back(preset.name);
+    }
+    throw BadParameter("recipe.with_preset", fmt::format("no preset is called '{}'; the presets are {}.{}", name,
+                                                         fmt::join(names, ", "), did_you_mean(name, names)));
+}
+
+/// Whether another key of the recipe, which somebody chose, says the same or excludes it.
+bool is_decided(Recipe const& recipe, std::string const& path) {
+    SurfaceRecipe const& surface = *recipe.surface;
+    EquilibriumRecipe const& land = surface.equilibrium;
+    bool const has_slope = surface.dilate.relief_m > 0.0 || !land.like.empty();
+    return recipe.set_at.contains(path) || (path == "surface.mean_slope" && has_slope) ||
+           (path == "surface.roughness" && !land.like.empty()) || (path == "surface.lake_share" && !land.lakes.empty());
+}
+
+} // namespace
+
+std::vector<Preset> const& presets() {
+    // Chosen by eye beside the DEMs of samples/, and by measures of relief (docs/relief_measures.md), at seeds 7, 1, 2
+    // and 3. A large hillslope asks for a large concavity: else rivers lie in trenches that creep cannot follow.
+    static std::vector<Preset> const all{
+        {"hills",
+         "gentle rolling hills: round crests, wide valley floors, some lakes; the hills stand in groups of 8 km",
+         "land that ice has shaped (drumlins, kettles), or a plain",
+         {{"network.concavity", "0.46"},
+          {"surface.mean_slope", "10"},
+          {"surface.hillslope", "45"},
+          {"surface.debris_area", "0.03"},
+          {"surface.floor_width", "0.06"},
+          {"surface.roughness", "0.3"},
+          {"surface.grain", "3"},
+          {"surface.uplift_pattern", "domes"},
+          {"surface.uplift_contrast", "2"},
+          {"surface.uplift_wave", "8000"},
+          {"surface.lake_share", "0.1"}}},
+        {"basin-and-range",
+         "long parallel ranges, 10 km apart, steep on the side of their fault, with low land between",
+         "basins filled with sediment: no fans, no playas, and every basin drains to the edge",
+         {{"surface.mean_slope", "14"},
+          {"surface.floor_width", "0.06"},
+          {"surface.grain", "8"},
+          {"surface.uplift_pattern", "blocks"},
+          {"surface.uplift_contrast", "20"},
+          {"surface.uplift_wave", "10000"}}},
+        {"dissected-plateau",
+         "a plateau that valleys have dissected: they branch like trees between crests of much the same height",
+         "tablelands, mesas or canyons: nothing is left of the plateau's surface, and no rock makes steps",
+         {{"network.concavity", "0.55"},
+          {"surface.mean_slope", "12"},
+          {"surface.hillslope", "12"},
+          {"surface.debris_area", "0.14"},
+          {"surface.roughness", "0.26"},
+          {"surface.longest_wave", "5000"},
+          {"surface.grain", "4"}}}};
+    return all;
+}
+
+Recipe with_preset(Recipe recipe, std::string const& name) {
+    Preset const& preset = preset_named(name);
+    refuse_if<BadParameter>(!in_equilibrium(recipe), "recipe.with_preset",
+                            "preset '{}' is of equilibrium terrain: it needs {}", name, in_equilibrium.lacks(recipe));
+    std::vector<std::string> given;
+    for (KeyValue const& key : preset.keys) {
+        if (!is_decided(recipe, key.path)) {
+            given.push_back(key.path);
+            set_key(recipe, key.path, key.text.value_or(""));
+            recipe.set_at.erase(key.path); // by nobody: it need not have an effect
+        }
+    }
+    refuse_if<BadParameter>(given.empty(), "recipe.with_preset",
+                            "preset '{}' has no effect: the recipe sets every key of it", name);
+    for (std::string const& path : given) {
+        if (!find_key(path)->use(recipe)) {
+            unset_key(recipe, path);
+        }
+    }
+    return recipe;
+}
+
+} // namespace thalweg::recipe
