@@ -52,7 +52,7 @@ class Member:
 
 
 def ensemble(recipe: object = None, /, members: int | None = None, *, seeds: Sequence[int] | None = None,
-             vary: Mapping[str, object] | None = None, threads: int = 0, progress: _show.Progress = None,
+             vary: Mapping[str, object] | None = None, preset: str | None = None, threads: int = 0, progress: _show.Progress = None,
              **keys: Any) -> Iterator[Member]:
     """Make terrains that differ in the seed and in what varies, and yield them as they finish.
 
@@ -70,6 +70,8 @@ def ensemble(recipe: object = None, /, members: int | None = None, *, seeds: Seq
     vary : dict, optional
         By key of the recipe: a tuple (a, b) for a random number between a and b, a list for its values in turn, or a str as
         --vary has it, "10..35".
+    preset : str, optional
+        See make.
     threads : int, default 0
         Number of members made at once; 0: as many as there are processors.
     progress : callable or bool, optional
@@ -104,7 +106,7 @@ def ensemble(recipe: object = None, /, members: int | None = None, *, seeds: Seq
     if members is None or members < 1:
         raise ValueError("ensemble: give the number of members, at least 1")
     files: list[_networks.TemporaryPath] = []
-    asked = ensembles.Ensemble(recipe=_recipe_of(recipe, keys, files), members=members,
+    asked = ensembles.Ensemble(recipe=_recipe_of(recipe, keys, files, preset), members=members,
                               vary=[ensembles.read_varied_key(f"{key}={_words_of(value)}") for key, value in (vary or {}).items()])
     return _members(asked, files, threads or os.cpu_count() or 1, _show.progress_of(progress))
 

@@ -290,9 +290,10 @@ class Terrain:
         return _show.html_of(self._map, self._words())
 
 
-def make(recipe: object = None, /, *, output: str | os.PathLike[str] | Mapping[str, Any] | None = None,
-         overwrite: bool = False, threads: int = 0, progress: _show.Progress = None,
-         log: Callable[[str], object] | None = None, device: Literal["cpu", "opencl"] = "cpu", **keys: Any) -> Terrain:
+def make(recipe: object = None, /, *, preset: str | None = None,
+         output: str | os.PathLike[str] | Mapping[str, Any] | None = None, overwrite: bool = False, threads: int = 0,
+         progress: _show.Progress = None, log: Callable[[str], object] | None = None,
+         device: Literal["cpu", "opencl"] = "cpu", **keys: Any) -> Terrain:
     """Make terrain and rivers, as `thalweg make` does: the same recipe gives the same values.
 
     Parameters
@@ -303,6 +304,9 @@ def make(recipe: object = None, /, *, output: str | os.PathLike[str] | Mapping[s
         out, or a dict of seed, grid and output alone: rivers over the whole grid and terrain around them. In a dict the
         value of a key that names a file may be a table or an array, None leaves a key out, and a section may be written as
         "grid.width". Relative names of files start from the working folder.
+    preset : str, optional
+        A name of recipe.presets(), such as "hills": keys of equilibrium terrain for land of one kind. What the recipe and
+        **keys set goes before it.
     output : str, path or dict, optional
         Folder to write; see Terrain.write. A dict is the recipe's section of that name.
     overwrite : bool, default False
@@ -331,7 +335,8 @@ def make(recipe: object = None, /, *, output: str | os.PathLike[str] | Mapping[s
     Raises
     ------
     BadParameter
-        With all faults of a recipe: unknown keys, wrong types, values out of range, keys without effect.
+        With all faults of a recipe: unknown keys, wrong types, values out of range, keys without effect; for a preset that
+        is unknown or has no effect.
     BadInput
         When an input does not suit.
     NotConverged
@@ -348,7 +353,7 @@ def make(recipe: object = None, /, *, output: str | os.PathLike[str] | Mapping[s
     if isinstance(output, Mapping):
         keys, output = {**keys, "output": output}, None
     files: list[_networks.TemporaryPath] = []
-    return _made(_recipe_of(recipe, keys, files), files, "make", output, overwrite, threads=threads, progress=progress, log=log,
+    return _made(_recipe_of(recipe, keys, files, preset), files, "make", output, overwrite, threads=threads, progress=progress, log=log,
                  device=device)
 
 
@@ -396,12 +401,12 @@ def _made(asked: recipes.Recipe, files: list[_networks.TemporaryPath], who: str,
     return terrain
 
 
-def forecast(recipe: object = None, /, **keys: Any) -> dict[str, Any]:
+def forecast(recipe: object = None, /, *, preset: str | None = None, **keys: Any) -> dict[str, Any]:
     """Estimate the work of make(), without doing it.
 
     Parameters
     ----------
-    recipe, **keys
+    recipe, preset, **keys
         As for make.
 
     Returns
@@ -421,12 +426,18 @@ def forecast(recipe: object = None, /, **keys: Any) -> dict[str, Any]:
         As make.
     """
     files: list[_networks.TemporaryPath] = []
-    found = recipes.forecast(_recipe_of(recipe, keys, files))
+    found = recipes.forecast(_recipe_of(recipe, keys, files, preset))
     _warn_of(found.findings, 2)
     return {name: getattr(found, name) for name in ("stages", "grid", "cells", "memory_bytes", "seconds", "findings")}
 
 
-def _recipe_of(recipe: object, keys: Mapping[str, Any], files: list[_networks.TemporaryPath]) -> recipes.Recipe:
+def _recipe_of(recipe: object, keys: Mapping[str, Any], files: list[_networks.TemporaryPath],
+               preset: str | None = None) -> recipes.Recipe:
+    asked = _recipe_with(recipe, keys, files)
+    return asked if preset is None else recipes.with_preset(asked, preset)
+
+
+def _recipe_with(recipe: object, keys: Mapping[str, Any], files: list[_networks.TemporaryPath]) -> recipes.Recipe:
     over = dict(_values(keys, files))
     if isinstance(recipe, Mapping):
         given = dict(_values(recipe, files)) | over

@@ -54,6 +54,20 @@ class Recipes(unittest.TestCase):
                     self.assertTrue(same(thalweg.make(recipe, **keys), expected))
         self.assertFalse(same(thalweg.make(DILATED, seed=9), expected))
 
+    def test_a_preset_goes_behind_what_is_set(self):
+        preset = thalweg.recipe.presets()[0]
+        keys = {key.path: key.text for key in preset.keys}
+        by_hand = {path: text if path == "surface.uplift_pattern" else float(text) for path, text in keys.items()}
+        self.assertTrue(same(thalweg.make(SMALL, preset=preset.name), thalweg.make(SMALL, **by_hand)))
+        steep = thalweg.make(SMALL, preset="hills", **{"surface.mean_slope": 20}).recipe["surface"]
+        self.assertEqual((steep["mean_slope"], steep["lake_share"]), (20, 0.1))
+        self.assertEqual(thalweg.forecast(SMALL, preset="hills")["cells"], 96 * 80)
+        self.assertEqual(next(thalweg.ensemble(SMALL, 1, preset="hills")).terrain.recipe["surface"]["lake_share"], 0.1)
+        with self.assertRaisesRegex(BadParameter, "Did you mean 'hills'"):
+            thalweg.make(SMALL, preset="hill")
+        with self.assertRaisesRegex(BadParameter, "of equilibrium terrain"):
+            thalweg.make(DILATED, preset="hills")
+
     def test_without_a_recipe_there_are_rivers_that_suit_the_grid(self):
         expected = thalweg.make(SMALL)
         self.assertEqual(expected.dem.shape, (80, 96))
