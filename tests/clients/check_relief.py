@@ -104,17 +104,23 @@ def slope_area_ratio(flow, slopes):
     return float(means[0] / means[1]) if np.isfinite(means[0] / means[1]) else None
 
 
-def straightness(flow, columns, support=2000, steps=60, tolerance=1.5):
-    """Longest run of channels in one direction, and the share of reaches that keep to their chord."""
+def level_water(z):
+    """Cells as high as their eight neighbours."""
+    return maximum_filter(z, size=3) == minimum_filter(z, size=3)
+
+
+def straightness(flow, z, support=2000, steps=60, tolerance=1.5):
+    """Longest run of channels in one direction, and the share of reaches that keep to their chord; level water left out."""
     area, _, _, below, towards = flow
-    cells = np.flatnonzero((area >= support) & (below >= 0))
+    columns, lake = z.shape[1], level_water(z).ravel()
+    cells = np.flatnonzero((area >= support) & (below >= 0) & ~lake)
     run = np.ones(area.size, int)
     for at in cells[np.argsort(area[cells], kind="stable")]:
-        if towards[below[at]] == towards[at]:
+        if towards[below[at]] == towards[at] and not lake[below[at]]:
             run[below[at]] = max(run[below[at]], run[at] + 1)
     reach = [cells]
     for _ in range(steps):
-        reach.append(np.where(reach[-1] >= 0, below[reach[-1]], -1))
+        reach.append(np.where((reach[-1] >= 0) & ~lake[below[reach[-1]]], below[reach[-1]], -1))
     reach = np.stack(reach)[:, reach[-1] >= 0] if cells.size else np.zeros((steps + 1, 0), int)
     row, column = reach // columns, reach % columns
     down, across = (row[-1] - row[0]).astype(float), (column[-1] - column[0]).astype(float)
@@ -155,8 +161,7 @@ def anisotropy(unit, window):
 
 def level_patch(z, slope):
     """Share of the largest patch below 3 degrees, in percent; level water left out."""
-    lake = maximum_filter(z, size=3) == minimum_filter(z, size=3)
-    land = np.isfinite(slope) & ~lake
+    land = np.isfinite(slope) & ~level_water(z)
     land[0] = land[-1] = land[:, 0] = land[:, -1] = False
     with np.errstate(invalid="ignore"):
         patches, count = label(land & (slope < 3), structure=np.ones((3, 3)))
@@ -256,7 +261,7 @@ def measured(folder, dem, report):
         area, drop, *rest = flow
         found["theta_of_uplift"] = concavity((area, drop / heights(folder / "uplift.tif")[0].ravel(), *rest), cell)
     found["half_way_height"] = half_way_height(flow, z, cell)
-    found["straight_run"], found["straight_share"] = straightness(flow, z.shape[1])
+    found["straight_run"], found["straight_share"] = straightness(flow, z)
     unit = units(z)
     for lag in (360, 720, 1440):
         found[f"gradient_correlation_{lag}"] = correlation(unit, round(lag / cell))

@@ -225,17 +225,50 @@ TEST(StraightChannels, AStraightValleyIs) {
     EXPECT_GE(found.reaches, 85);
 }
 
+TEST(StraightChannels, LevelWaterIsNoChannel) {
+    Raster<float> dem = valley(200); // its channel is row 4
+    for (std::int64_t col = 80; col < 140; ++col) {
+        for (std::int64_t row = 1; row < dem.height() - 1; ++row) {
+            dem[Cell{col, row}] = dem[Cell{140, 4}];
+        }
+    }
+    flow::FlowField const drainage = route(dem);
+    measure::StraightChannelsParams const params{.support_cells = 20, .reach_steps = 10};
+    StraightChannels const all = straight_channels(drainage, params);
+    StraightChannels const land = straight_channels(drainage, dem, params);
+    EXPECT_GE(all.longest_run, 60);
+    EXPECT_LE(land.longest_run, 82) << "to the lake";
+    EXPECT_LT(land.reaches, all.reaches - 20) << "none where the water crosses the lake";
+    EXPECT_EQ(straight_channels(drainage, valley(200), params).longest_run, all.longest_run) << "no water is level";
+}
+
+TEST(StraightChannels, RefusesAnotherGrid) {
+    flow::FlowField const drainage = route(rough_dem(frame(9, 9), 1));
+    EXPECT_THROW(straight_channels(drainage, rough_dem(frame(9, 8), 1)), BadInput);
+}
+
 TEST(StraightChannels, AsCountedDownstream) {
     ASSERT_TRUE(rc::check("runs by area from the sources down, reaches by their chord", [] {
         auto const seed = *rc::gen::arbitrary<std::uint64_t>();
         Raster<float> dem = rough_dem(frame(40, 50), seed);
         for (std::int64_t i = 0; i < dem.cells(); ++i) {
-            dem[i] += 0.1F * static_cast<float>(dem.grid().at(i).row);
+            Cell const at = dem.grid().at(i);
+            bool const in_lake = at.row >= 15 && at.row < 32 && at.col >= 10 && at.col < 35;
+            dem[i] = in_lake ? dem[dem.grid().index({10, 15})] : dem[i] + 0.1F * static_cast<float>(at.row);
         }
         flow::FlowField const drainage = route(dem);
+        bool const knows_water = *rc::gen::arbitrary<bool>();
+        auto const is_water = [&](std::int64_t cell) {
+            bool level = knows_water;
+            for (Cell const step : d8_steps) {
+                Cell const beside{dem.grid().at(cell).col + step.col, dem.grid().at(cell).row + step.row};
+                level = level && dem.grid().contains(beside) && dem[beside] == dem[cell];
+            }
+            return level;
+        };
         std::multimap<std::int64_t, std::int64_t> by_area;
         for (std::int64_t i = 0; i < dem.cells(); ++i) {
-            if (drainage.area_cells[i] >= 15 && drainage.receiver(i) >= 0) {
+            if (drainage.area_cells[i] >= 15 && drainage.receiver(i) >= 0 && !is_water(i)) {
                 by_area.emplace(drainage.area_cells[i], i);
             }
         }
@@ -247,11 +280,12 @@ TEST(StraightChannels, AsCountedDownstream) {
             std::int64_t const steps = ++run_to[cell];
             longest = std::max(longest, steps);
             std::int64_t const below = drainage.receiver(cell);
-            if (drainage.direction[below] == drainage.direction[cell]) {
+            if (drainage.direction[below] == drainage.direction[cell] && !is_water(below)) {
                 run_to[below] = std::max(run_to[below], steps);
             }
             std::vector<Cell> reach{dem.grid().at(cell)};
-            for (std::int64_t at = drainage.receiver(cell); at >= 0 && reach.size() < 9; at = drainage.receiver(at)) {
+            for (std::int64_t at = drainage.receiver(cell); at >= 0 && reach.size() < 9 && !is_water(at);
+                 at = drainage.receiver(at)) {
                 reach.push_back(dem.grid().at(at));
             }
             if (reach.size() < 9) {
@@ -269,8 +303,9 @@ TEST(StraightChannels, AsCountedDownstream) {
             }
             straight += near ? 1 : 0;
         }
+        measure::StraightChannelsParams const params{.support_cells = 15, .reach_steps = 8, .tolerance_cells = 1.0};
         StraightChannels const found =
-            straight_channels(drainage, {.support_cells = 15, .reach_steps = 8, .tolerance_cells = 1.0});
+            knows_water ? straight_channels(drainage, dem, params) : straight_channels(drainage, params);
         RC_ASSERT(found.longest_run == longest);
         RC_ASSERT(found.reaches == reaches);
         RC_ASSERT(reaches == 0 || found.straight_share == static_cast<double>(straight) / static_cast<double>(reaches));

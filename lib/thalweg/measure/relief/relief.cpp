@@ -165,7 +165,7 @@ Relief relief(Raster<float> const& dem, flow::FlowField const& drainage, Statist
         found.drainage_density * std::sqrt(static_cast<double>(params.support_cells)) * dem.grid().cell_m;
     found.slope_area_ratio = slope_area_ratio(dem, drainage, params.slope_area_ratio, run);
     found.texture = gradient_texture(dem, params.texture, run);
-    found.straight = straight_channels(drainage, params.straight, run);
+    found.straight = straight_channels(drainage, dem, params.straight, run);
     found.level_patch = level_patch(dem, params.level_patch, run);
     found.orometry = orometry(dem, params.orometry, run);
     found.variety = variety(dem, drainage, rivers, params.variety, run);

@@ -13,6 +13,7 @@
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/core/same_grid.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/measure/texture/internal/gradient_row.hpp>
 
@@ -336,9 +337,23 @@ double anisotropy(Raster<float> const& dem, double window_m, Run const& run) {
 struct Channels {
     flow::FlowField const& drainage;
     StraightChannelsParams const& params;
+    Raster<float> const* dem = nullptr; ///< tells level water; null: there is none
 
     bool contains(std::int64_t cell) const {
-        return drainage.area_cells[cell] >= params.support_cells && goes_on(drainage.direction[cell]);
+        return drainage.area_cells[cell] >= params.support_cells && goes_on(drainage.direction[cell]) &&
+               !is_level_water(cell);
+    }
+
+    /// As high as all its neighbours: the way of the water across a lake is the router's choice.
+    bool is_level_water(std::int64_t cell) const {
+        if (dem == nullptr) {
+            return false;
+        }
+        Cell const at = dem->grid().at(cell);
+        return std::ranges::all_of(d8_steps, [&](Cell step) {
+            Cell const beside{at.col + step.col, at.row + step.row};
+            return dem->grid().contains(beside) && (*dem)[beside] == (*dem)[cell];
+        });
     }
 };
 
@@ -351,21 +366,24 @@ bool run_goes_on_upstream(Channels const& channels, Cell at, flow::Direction dir
            channels.contains(grid.index(above));
 }
 
-std::int64_t run_from(flow::FlowField const& drainage, std::int64_t cell) {
+std::int64_t run_from(Channels const& channels, std::int64_t cell) {
+    flow::FlowField const& drainage = channels.drainage;
     flow::Direction const direction = drainage.direction[cell];
     std::int64_t steps = 0;
-    for (std::int64_t at = cell; at >= 0 && drainage.direction[at] == direction; at = drainage.receiver(at)) {
+    for (std::int64_t at = cell; at >= 0 && drainage.direction[at] == direction && !channels.is_level_water(at);
+         at = drainage.receiver(at)) {
         ++steps;
     }
     return steps;
 }
 
-/// Collects the cells of a reach; fewer than steps + 1 if the water ends.
-void walk(flow::FlowField const& drainage, std::int64_t cell, std::int64_t steps, std::vector<Cell>& reach) {
+/// Collects the cells of a reach; fewer than its steps and one more if the water ends or becomes a lake.
+void walk(Channels const& channels, std::int64_t cell, std::vector<Cell>& reach) {
+    flow::FlowField const& drainage = channels.drainage;
     reach.clear();
-    for (std::int64_t at = cell; at >= 0; at = drainage.receiver(at)) {
+    for (std::int64_t at = cell; at >= 0 && !channels.is_level_water(at); at = drainage.receiver(at)) {
         reach.push_back(drainage.grid().at(at));
-        if (static_cast<std::int64_t>(reach.size()) > steps || !goes_on(drainage.direction[at])) {
+        if (static_cast<std::int64_t>(reach.size()) > channels.params.reach_steps || !goes_on(drainage.direction[at])) {
             return;
         }
     }
@@ -404,15 +422,32 @@ RowOfReaches row_of(Channels const& channels, std::int64_t r) {
             continue;
         }
         if (!run_goes_on_upstream(channels, {c, r}, channels.drainage.direction[cell])) {
-            row.longest_run = std::max(row.longest_run, run_from(channels.drainage, cell));
+            row.longest_run = std::max(row.longest_run, run_from(channels, cell));
         }
-        walk(channels.drainage, cell, channels.params.reach_steps, reach);
+        walk(channels, cell, reach);
         if (static_cast<std::int64_t>(reach.size()) > channels.params.reach_steps) {
             ++row.reaches;
             row.straight += is_straight(reach, channels.params.tolerance_cells) ? 1 : 0;
         }
     }
     return row;
+}
+
+StraightChannels straight(Channels const& channels, Run const& run) {
+    constexpr char const* self = "measure.straight_channels";
+    StraightChannelsParams const& params = channels.params;
+    require_in(self, "support_cells", params.support_cells, Range::at_least(1));
+    require_in(self, "reach_steps", params.reach_steps, Range::at_least(2));
+    require_in(self, "tolerance_cells", params.tolerance_cells, Range::at_least(0.0));
+    RowOfReaches const all = sum_rows(run, channels.drainage.grid().height, [&](std::int64_t r) {
+        run.check();
+        return row_of(channels, r);
+    });
+    StraightChannels found{all.longest_run, all.reaches};
+    if (all.reaches > 0) {
+        found.straight_share = static_cast<double>(all.straight) / static_cast<double>(all.reaches);
+    }
+    return found;
 }
 
 } // namespace
@@ -433,20 +468,14 @@ GradientTexture gradient_texture(Raster<float> const& dem, GradientTextureParams
 
 StraightChannels straight_channels(flow::FlowField const& drainage, StraightChannelsParams const& params,
                                    Run const& run) {
-    constexpr char const* self = "measure.straight_channels";
-    require_in(self, "support_cells", params.support_cells, Range::at_least(1));
-    require_in(self, "reach_steps", params.reach_steps, Range::at_least(2));
-    require_in(self, "tolerance_cells", params.tolerance_cells, Range::at_least(0.0));
-    Channels const channels{drainage, params};
-    RowOfReaches const all = sum_rows(run, drainage.grid().height, [&](std::int64_t r) {
-        run.check();
-        return row_of(channels, r);
-    });
-    StraightChannels found{all.longest_run, all.reaches};
-    if (all.reaches > 0) {
-        found.straight_share = static_cast<double>(all.straight) / static_cast<double>(all.reaches);
-    }
-    return found;
+    return straight({drainage, params}, run);
+}
+
+StraightChannels straight_channels(flow::FlowField const& drainage, Raster<float> const& dem,
+                                   StraightChannelsParams const& params, Run const& run) {
+    require_same_grid(dem.grid(), drainage.grid(), "measure.straight_channels", "the DEM and its drainage",
+                      "drain this DEM");
+    return straight({drainage, params, &dem}, run);
 }
 
 } // namespace thalweg::measure

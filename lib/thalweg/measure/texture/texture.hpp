@@ -82,4 +82,11 @@ struct StraightChannelsParams {
 StraightChannels straight_channels(flow::FlowField const& drainage, StraightChannelsParams const& params = {},
                                    Run const& run = {});
 
+/// The same without level water: a cell as high as its eight neighbours is a lake's surface, which flow crosses in
+/// straight lines that no channel takes. Runs and reaches end at lakes.
+/// \param dem [m] by cell
+/// \throws BadInput when the DEM has another grid
+StraightChannels straight_channels(flow::FlowField const& drainage, Raster<float> const& dem,
+                                   StraightChannelsParams const& params = {}, Run const& run = {});
+
 } // namespace thalweg::measure
