@@ -92,6 +92,21 @@ TEST(Recipe, DefaultIsTheSample) {
     EXPECT_EQ(write_recipe(read_recipe(sample("relief_dla.toml"), "relief_dla.toml")), write_recipe(cluster_recipe()));
 }
 
+TEST(Recipe, BuiltInValuesGiveWayToFiles) {
+    Recipe recipe = default_recipe();
+    EquilibriumRecipe const& land = recipe.surface->equilibrium;
+    EXPECT_EQ(land.uplift_pattern, surface::UpliftPattern::seed);
+    EXPECT_GT(land.lake_share, 0.0);
+    set_key(recipe, "surface.uplift=uplift.tif");
+    EXPECT_EQ(land.uplift_pattern, EquilibriumRecipe{}.uplift_pattern);
+    set_key(recipe, "surface.lakes=lakes.gpkg");
+    EXPECT_EQ(land.lake_share, 0.0);
+    Recipe asked = default_recipe();
+    set_key(asked, "surface.uplift_pattern=folds");
+    set_key(asked, "surface.uplift=uplift.tif");
+    EXPECT_EQ(asked.surface->equilibrium.uplift_pattern, surface::UpliftPattern::folds) << "both were asked for";
+}
+
 TEST(Recipe, UnknownKeysAreNamedWithTheNearestOne) {
     for (auto const& [toml, words] : std::vector<std::pair<std::string, std::string>>{
              {"[network]\nprun = 3\n", "line 2: unknown key 'network.prun'"},

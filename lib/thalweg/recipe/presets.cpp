@@ -64,7 +64,8 @@ std::vector<Preset> const& presets() {
           {"surface.grain", "8"},
           {"surface.uplift_pattern", "blocks"},
           {"surface.uplift_contrast", "20"},
-          {"surface.uplift_wave", "10000"}}},
+          {"surface.uplift_wave", "10000"},
+          {"surface.lake_share", "0"}}},
         {"dissected-plateau",
          "a plateau that valleys have dissected: they branch like trees between crests of much the same height",
          "tablelands, mesas or canyons: nothing is left of the plateau's surface, and no rock makes steps",
@@ -74,7 +75,9 @@ std::vector<Preset> const& presets() {
           {"surface.debris_area", "0.14"},
           {"surface.roughness", "0.26"},
           {"surface.longest_wave", "5000"},
-          {"surface.grain", "4"}}}};
+          {"surface.grain", "4"},
+          {"surface.uplift_pattern", "none"},
+          {"surface.lake_share", "0"}}}};
     return all;
 }
 

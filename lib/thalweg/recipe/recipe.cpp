@@ -9,13 +9,18 @@
 namespace thalweg::recipe {
 namespace {
 
-/// Terrain around rivers that are still to be named.
+/// Terrain around rivers that are still to be named. Real land is not equally steep everywhere (docs/relief_measures.md,
+/// slope_spread): uplift differs from place to place, its pattern by seed, and a few rivers run through lakes.
 Recipe recipe_around(Source source, std::int64_t width, std::int64_t height) {
     Recipe recipe;
     recipe.grid.width = width;
     recipe.grid.height = height;
     recipe.network.emplace().source = source;
-    recipe.surface.emplace().equilibrium.mean_slope_deg = 25.0;
+    EquilibriumRecipe& land = recipe.surface.emplace().equilibrium;
+    land.mean_slope_deg = 25.0;
+    land.uplift_pattern = surface::UpliftPattern::seed;
+    land.uplift_contrast = 6.0;
+    land.lake_share = 0.05;
     return recipe;
 }
 

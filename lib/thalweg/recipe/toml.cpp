@@ -184,6 +184,20 @@ void settle_cell(Recipe& recipe) {
     }
 }
 
+/// Lets what nobody asked for give way to a file: uplift by pattern to a raster of uplift, lakes by share to polygons.
+void settle_built_in(Recipe& recipe) {
+    if (!recipe.surface) {
+        return;
+    }
+    EquilibriumRecipe& land = recipe.surface->equilibrium;
+    if (!land.uplift.empty() && !recipe.set_at.contains("surface.uplift_pattern")) {
+        land.uplift_pattern = EquilibriumRecipe{}.uplift_pattern;
+    }
+    if (!land.lakes.empty() && !recipe.set_at.contains("surface.lake_share")) {
+        land.lake_share = EquilibriumRecipe{}.lake_share;
+    }
+}
+
 constexpr std::size_t most_faults = 20;
 
 /// Whether keys stand in brackets of this path or below it.
@@ -416,6 +430,7 @@ void set_key(Recipe& recipe, std::string const& path, std::string const& text) {
     Target const target = target_of(path);
     assign(recipe, key_at(target, "recipe.set_key"), target.item, text);
     settle_cell(recipe);
+    settle_built_in(recipe);
 }
 
 void set_key(Recipe& recipe, std::string const& assignment) {

@@ -404,6 +404,10 @@ void set_file(std::vector<Step>& steps, Document const& document, std::string co
 }
 
 void set_lakes(std::vector<Step>& steps, Document const& document, Drawing const& drawing, PutInput const& put) {
+    auto const& surface = document.recipe.surface;
+    if (!drawing.lakes.empty() && surface && surface->equilibrium.lake_share > 0.0) {
+        steps.emplace_back(UnsetKey{"surface.lake_share"}); // lakes are random or given
+    }
     set_file(steps, document, "surface.lakes", drawing.lakes.size(), [&] {
         return put("surface.lakes", "lakes.gpkg", [&](std::string const& path) { write_lakes(drawing, path); });
     });

@@ -84,7 +84,8 @@ TEST(Rebuild, TheMeanSlopeAndTheTextureMayBeThoseOfADem) {
     EXPECT_NEAR(static_cast<double>(found["mean_slope_deg"]), 24.6, 1.0);
     EXPECT_EQ(found["lag_m"], 360.0);
     double const slope = report["dem"]["slope_true_deg"];
-    EXPECT_NEAR(slope / static_cast<double>(found["mean_slope_deg"]), 1.0, 0.05);
+    // The rivers keep their heights, and uplift differs from place to place in the truth alone.
+    EXPECT_NEAR(slope / static_cast<double>(found["mean_slope_deg"]), 1.0, 0.07);
     expect_run(place, "replay out --verify", 0);
     // A roughness that is given, or a slope, comes before it.
     expect_run(place, like + "truth/dem.tif --set surface.roughness=0.3 --set surface.mean_slope=22 -o asked", 0);
