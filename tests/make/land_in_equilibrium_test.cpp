@@ -170,6 +170,19 @@ TEST(LandInEquilibrium, HeightsOfRiversAreKeptOrUpperBounds) {
     EXPECT_EQ(fixed.terrain.ground.equilibrium()->max_lowered_m, 0.0);
 }
 
+TEST(LandInEquilibrium, LakesKeepFromTheSea) {
+    for (int const seed : {1, 4, 6}) { // 4: a lake reached the shore, and its water the sea beside the outlet
+        MakeResult const island =
+            made(fmt::format("seed = {}\n[grid]\nwidth = 400\nheight = 400\n"
+                             "[network]\nsource = \"forest\"\nprune = 40\n"
+                             "[network.forest]\nshape = \"island\"\nruggedness = 0.8\nspacing = 20\n"
+                             "[surface]\nmethod = \"equilibrium\"\nedge = \"coast\"\nlake_share = 0.5\n",
+                             seed));
+        expect_lawful(island);
+        EXPECT_EQ(check_of(island, "sources_astray").value, 0.0) << seed;
+    }
+}
+
 TEST(LandInEquilibrium, LakesAreLevelAndReported) {
     Files const files;
     MakeResult const t = made(lines + path + "[surface]\nlakes = \"lakes.geojson\"\n", files.folder());

@@ -6,11 +6,14 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include <thalweg/blend/mask_polygons.hpp>
 #include <thalweg/core/append.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/io/raster/polygons.hpp>
@@ -79,8 +82,37 @@ Polygons lake_polygons(recipe::Recipe const& recipe, Grid const& grid, Run const
     return polygons;
 }
 
-Lakes lakes_of(recipe::Recipe const& recipe, Planform const& planform, network::ChannelsOfArcs const& rivers,
-               Run const& run) {
+/// Takes the cells off lakes that lie in the sea or beside it: their water would leave there instead of at the outlet.
+void keep_from_sea(Lakes& lakes, Mask const& land) {
+    if (land.cells() == 0) {
+        return;
+    }
+    Grid const& grid = land.grid();
+    std::map<std::int32_t, std::pair<std::int64_t, Vec2>> cut; // by label: cells, the first of them
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        if (lakes.labels[i] <= 0) {
+            continue;
+        }
+        bool is_by_the_sea = false;
+        cells_around(grid, grid.at(i), 1, [&](Cell near) { is_by_the_sea |= land[near] == 0; });
+        if (is_by_the_sea) {
+            auto const [at, is_new] = cut.try_emplace(lakes.labels[i], 0, grid.centre(grid.at(i)));
+            ++at->second.first;
+            lakes.labels[i] = 0;
+        }
+    }
+    for (auto const& [label, cells] : cut) {
+        lakes.notes.push_back({.kind = "lake_cut",
+                               .feature = label,
+                               .where = cells.second,
+                               .amount = static_cast<double>(cells.first),
+                               .text = fmt::format("lake {} at ({:.3f}, {:.3f}): cells taken off it beside the sea: {}",
+                                                   label, cells.second.x, cells.second.y, cells.first)});
+    }
+}
+
+Lakes wanted_lakes(recipe::Recipe const& recipe, Planform const& planform, network::ChannelsOfArcs const& rivers,
+                   Run const& run) {
     recipe::EquilibriumRecipe const& wanted = recipe.surface->equilibrium;
     if (wanted.lake_share > 0.0) {
         flow::ContributingAreas const areas = flow::areas_nearest(planform.network, planform.grid, run);
@@ -124,10 +156,11 @@ void set_levels(Lakes const& wanted, network::FloodedLakes& flooded) {
 
 WithLakes with_lakes(recipe::Recipe const& recipe, Planform const& planform, network::ChannelsOfArcs rivers,
                      Run const& run) {
-    Lakes lakes = lakes_of(recipe, planform, rivers, run);
+    Lakes lakes = wanted_lakes(recipe, planform, rivers, run);
     if (lakes.labels.cells() == 0) {
         return {std::move(rivers)};
     }
+    keep_from_sea(lakes, planform.land);
     network::FloodedLakes flooded = network::flood_lakes(rivers, lakes.labels, run);
     set_levels(lakes, flooded);
     append(lakes.notes, flooded.notes);
