@@ -197,7 +197,8 @@ def half_way_height(flow, z, cell, stream_m2=1e6, least=50, most=20):
         if below[at] not in donors or area[at] > area[donors[below[at]]]:
             donors[below[at]] = at
     shares = []
-    for mouth in sorted(np.flatnonzero((area >= support) & (below < 0)), key=lambda at: -area[at]):
+    ends = (below < 0) | np.isnan(heights[below])  # off the grid or in the sea
+    for mouth in sorted(np.flatnonzero((area >= support) & ends & ~np.isnan(heights)), key=lambda at: -area[at]):
         stem, length = [mouth], [0.0]
         while stem[-1] in donors:
             stem.append(donors[stem[-1]])
