@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the thalweg authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Takes the pictures of docs/qgis.md in the window of QGIS: `scripts/gallery --qgis` starts QGIS with it.
+"""Takes the pictures of docs/qgis.md in the window of QGIS: `scripts/gallery qgis` starts QGIS with it.
 
 The environment's SAMPLES is the folder with samples, PICTURES the one for pictures; the current one is empty."""
 import os

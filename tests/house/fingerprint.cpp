@@ -1,12 +1,15 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Prints a hash of the bits of every stage's result, from random numbers to surfaces. Every machine, compiler, build
-// type and number of threads must print tests/data/fingerprint.txt. Usage: fingerprint [THREADS]
+// type and number of threads must print tests/data/fingerprint.txt. Of DEMs it prints a hash of the heights of each,
+// whatever bytes GDAL writes for them (docs/gallery/terrain.txt). Usage: fingerprint [THREADS], fingerprint dem.tif ...
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <span>
 
 #include <thalweg/blend/deform.hpp>
 #include <thalweg/blend/paste.hpp>
@@ -32,6 +35,7 @@
 #include <thalweg/growth/tokunaga/grow_strokes.hpp>
 #include <thalweg/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/growth/tokunaga/lsystem.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/make/laws.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/network/channels/channels.hpp>
@@ -604,9 +608,19 @@ void print_forest(Run const& run) {
     print("land_and_sea", hash_of(network::land_and_sea(coast, {}, grid, run).land));
 }
 
+void print_dems(std::span<char*> files) {
+    for (char const* const file : files) {
+        print(file, hash_of(io::read_dem(file)));
+    }
+}
+
 } // namespace
 
 int main(int count, char** words) {
+    if (count > 1 && std::isdigit(static_cast<unsigned char>(*words[1])) == 0) {
+        print_dems({words + 1, words + count});
+        return 0;
+    }
     Run run;
     run.threads = count > 1 ? std::atoi(words[1]) : 0;
 
