@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: the thalweg authors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Holds docs/qgis.md to what QGIS does: its Python prints what it says, its commands (blocks marked console) run, the ten
-minutes give its numbers, and its tables name the algorithms, their parameters and outputs, and the words of errors."""
+minutes give its numbers, and its tables name the algorithms, their parameters and outputs, and the words of errors.
+THALWEG_RENEW=1 writes what is printed and the numbers into the page."""
 import contextlib
 import inspect
 import io
@@ -11,8 +12,12 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 
 from support import COAST, ENVIRONMENT, QGIS_PROCESS, ROOT, SAMPLES, Case, main, start
+
+sys.path.insert(0, str(ROOT / "tests/clients"))
+import figures  # noqa: E402
 
 PAGE = ROOT / "docs/qgis.md"
 TEXT = PAGE.read_text(encoding="utf-8")
@@ -58,6 +63,19 @@ class Page(Case):
         for phrase in phrases:
             self.assertIn(phrase, WORDS)
 
+    def assert_right(self, mended):
+        """The page is as a function of its text makes it."""
+        text = PAGE.read_text(encoding="utf-8")
+        right = mended(text)
+        if os.environ.get("THALWEG_RENEW") == "1":
+            PAGE.write_text(right, encoding="utf-8")
+        else:
+            self.assertEqual(figures.differences(PAGE.name, text, right), [])
+
+    def assert_numbers(self, phrase, *values):
+        """The page has a phrase with these values for each {}."""
+        self.assert_right(lambda text: figures.with_numbers(text, phrase, values))
+
     def test_python_prints_what_it_says(self):
         space, blocks = {"__name__": "page"}, list(re.finditer(r"^```python\n(.*?)^```", TEXT, re.S | re.M))
         self.assertGreater(len(blocks), 1)
@@ -65,7 +83,8 @@ class Page(Case):
             said, lines = io.StringIO(), "\n" * TEXT.count("\n", 0, block.start(1))  # tracebacks name lines of the page
             with contextlib.redirect_stdout(said):
                 exec(compile(lines + block[1], str(PAGE), "exec"), space)
-            self.assertEqual(said.getvalue().splitlines(), re.findall(r"^print\(.*\)  # (.*)$", block[1], re.M))
+            right = figures.with_prints(block[1], said.getvalue().splitlines())
+            self.assert_right(lambda text, old=block[1], new=right: text.replace(old, new))
         space.clear()
         QgsProject.instance().clear()
 
@@ -89,7 +108,7 @@ class Page(Case):
             return results, "\n".join(said.lines)
 
         lines = QgsVectorLayer("samples/coastal_nhdplus.gpkg", "rivers", "ogr")
-        self.assert_says(f"{lines.featureCount()} lines")
+        self.assert_numbers("into the window: {} lines", lines.featureCount())
         checked, log = run("check", NETWORK=lines, FIX="repaired.gpkg", FINDINGS="findings.gpkg")
         self.assertFalse(checked["OK"])
         failed, = re.findall("These checks failed: (.*)", log)
@@ -98,22 +117,24 @@ class Page(Case):
                  ("several_outflows", "duplicate_geometry", "ds_arc_mismatch")}
         self.assertEqual(sum(kinds.values()), checked["FINDINGS_COUNT"])
         repairs, = re.findall(r"(\d+) repairs: .*\d+ secondary", log)
-        self.assert_says("three checks that failed", f"{checked['FINDINGS_COUNT']} findings and counts {repairs} repairs", *kinds)
-        self.assert_says(f"{kinds['several_outflows']} findings are nodes",
-                         f"{kinds['duplicate_geometry']} is a line drawn twice",
-                         f"{kinds['ds_arc_mismatch']} names the wrong river")
+        self.assert_says("three checks that failed", *kinds)
+        self.assert_numbers("{} findings and counts {} repairs", checked["FINDINGS_COUNT"], int(repairs))
+        self.assert_numbers("{} findings are nodes", kinds["several_outflows"])
+        self.assert_numbers("{} is a line drawn twice", kinds["duplicate_geometry"])
+        self.assert_numbers("{} names the wrong river", kinds["ds_arc_mismatch"])
         secondary = count("repaired.gpkg|layername=secondary")
-        self.assert_says(f"repaired network has {count(checked['FIX'])} arcs", f"Minor channels, {secondary} lines")
+        self.assert_numbers("repaired network has {} arcs. Minor channels, {} lines", count(checked["FIX"]), secondary)
 
         made, log = run("make", RIVERS=lines, OUTPUT="coast")
         self.assertTrue(made["CHECKS_OK"])
         with open("coast/report.json", encoding="utf-8") as file:
             grid = json.load(file)["recipe"]["grid"]
-        checks, outlets = re.search(r"check: (\d+) checks, (\d+) outlets", log).groups()
-        sea = re.search(r"sea: (\d+) % of the grid", log)[1]
-        self.assert_says(f"{grid['width']} × {grid['height']} cells of {grid['cell']:g} m in {grid['crs']}",
-                         f"All {checks} checks pass",
-                         f"{count(made['ARCS'])} arcs reach {outlets} outlets, and {sea} % of the grid is sea")
+        checks, outlets = map(int, re.search(r"check: (\d+) checks, (\d+) outlets", log).groups())
+        sea = int(re.search(r"sea: (\d+) % of the grid", log)[1])
+        self.assert_numbers("{} × {} cells of {} m in EPSG:{}.", grid["width"], grid["height"], grid["cell"],
+                            int(grid["crs"].removeprefix("EPSG:")))
+        self.assert_numbers("All {} checks pass", checks)
+        self.assert_numbers("{} arcs reach {} outlets, and {} % of the grid is sea", count(made["ARCS"]), outlets, sea)
         project = QgsProject.instance()
         self.assertTrue(project.read(made["PROJECT"]))
         self.assertLessEqual({"Rivers", "Heights", "Hillshade"}, {layer.name() for layer in project.mapLayers().values()})
@@ -122,17 +143,17 @@ class Page(Case):
         checked, log = run("check", NETWORK=rivers, DEM=heights)
         self.assertIn("All checks passed. They allow findings within limits: ", log)
         self.assertTrue(checked["OK"])
-        self.assert_says(f"The {checked['FINDINGS_COUNT']} findings are places")
+        self.assert_numbers("The {} findings are places", checked["FINDINGS_COUNT"])
         measured, log = run("measure", DEM=heights, NETWORK=rivers, OUTPUT="measures")
-        self.assert_says(f"{count(measured['CATCHMENTS'])} catchments and {count(measured['BASINS'])} basins",
-                         f"{re.search('water of ([0-9]+) cells', log)[1]} cells drain")
+        self.assert_numbers("{} catchments and {} basins", count(measured["CATCHMENTS"]), count(measured["BASINS"]))
+        self.assert_numbers("{} cells drain", int(re.search("water of ([0-9]+) cells", log)[1]))
         tin, _ = run("tin", DEM=heights, ERROR=20, OUTPUT="coast.2dm")
-        self.assert_says(f"{tin['VERTICES']} vertices and {tin['TRIANGLES']} triangles")
+        self.assert_numbers("{} vertices and {} triangles", tin["VERTICES"], tin["TRIANGLES"])
         drawn, _ = run("draw", DEM=heights, NETWORK=rivers, OUTPUT="pictures")
         self.assertEqual(sorted(name for name in os.listdir("pictures") if name.endswith(".png")),
                          ["hypsometry.png", "map.png", "profile.png", "sections.png", "wireframe.png"])
         blended, _ = run("blend", TARGET=heights, SOURCE="samples/bigtujunga_srtm1_utm11.tif", KEEP=rivers, FEATHER=8, OUTPUT="pasted.tif")
-        self.assert_says(f"replaces {blended['CELLS']} cells")
+        self.assert_numbers("replaces {} cells", blended["CELLS"])
         made, _ = run("make", RIVERS=lines, CELL=150, SKELETON_TIN="true", OUTPUT="with_tin")
         self.assertTrue(os.path.exists(made["TIN"]))
         project.clear()
