@@ -16,6 +16,7 @@ import time
 
 FOLDER = pathlib.Path(__file__).resolve().parents[2] / "docs/notebooks"
 COLOUR = re.compile("\x1b\\[[0-9;]*m")  # of a terminal
+PLACE = re.compile(r"^/\S*/ipykernel_\d+/\d+\.py:\d+: ", re.M)  # of a warning: a folder and a process of the run
 
 
 def text_of(cell):
@@ -63,6 +64,8 @@ def run(path, write):
                                 resources={"metadata": {"path": str(path.parent)}}).execute()
     except nbclient.exceptions.CellExecutionError as fault:
         return [f"{path.name}: {COLOUR.sub('', str(fault))}"]
+    for output in (output for cell in notebook.cells for output in cell.get("outputs", []) if output.output_type == "stream"):
+        output.text = PLACE.sub("", output.text)
     print(f"{path.name:24} {time.monotonic() - start:5.1f} s", flush=True)
     faults = [f"{path.name}, cell {number}: stored\n{before}\nnow\n{after}" for number, (before, after)
               in enumerate(zip(stored, map(text_of, notebook.cells)), 1) if before != after]
