@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <tuple>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -140,6 +142,56 @@ TEST(BlockMaxima, AreTheHighestOfEachBlock) {
         }
     }
     EXPECT_TRUE(std::isnan(block_maxima(Raster<float>(Grid{2, 2, 1.0, 0.0, 2.0, ""}, none), 2)[0]));
+}
+
+TEST(Overview, HasTheBitsOfMeansAndMaximaFoundAlone) {
+    thalweg::Run many;
+    many.threads = 3;
+    thalweg::Run one;
+    one.threads = 1;
+    auto const is_same = [](Raster<float> const& a, Raster<float> const& b) {
+        return a.grid() == b.grid() &&
+               std::memcmp(a.values().data(), b.values().data(), sizeof(float) * a.values().size()) == 0;
+    };
+    constexpr float infinite = std::numeric_limits<float>::infinity();
+    // The widest has several bands; some have holes, and one has heights that are none.
+    for (auto const& [width, height, is_whole] : {std::tuple<std::int64_t, std::int64_t, bool>{1, 1, true},
+                                                  {9, 16, false},
+                                                  {16, 9, true},
+                                                  {130, 77, false},
+                                                  {5000, 90, true}}) {
+        Raster<float> fine = rough(width, height, is_whole);
+        fine[fine.cells() / 2] = width == 130 ? -infinite : fine[fine.cells() / 2];
+        fine[fine.cells() / 3] = width == 130 ? infinite : fine[fine.cells() / 3];
+        std::optional<std::pair<double, double>> range;
+        for (float const z : fine.values()) {
+            if (std::isfinite(z)) {
+                auto const m = static_cast<double>(z);
+                range = range ? std::pair(std::min(range->first, m), std::max(range->second, m)) : std::pair(m, m);
+            }
+        }
+        for (std::int64_t const columns : {std::max<std::int64_t>(1, width / 3), width, 3 * width}) {
+            for (std::int64_t const side : {1, 2, 5}) {
+                for (thalweg::Run const& run : {many, one}) {
+                    Overview const found = overview(fine, columns, side, run);
+                    EXPECT_EQ(found.range, range) << width;
+                    EXPECT_TRUE(columns < width ? is_same(found.means, box_means(fine, columns))
+                                                : found.means.cells() == 0)
+                        << width << " to " << columns;
+                    EXPECT_TRUE(side > 1 ? is_same(found.maxima, block_maxima(fine, side)) : found.maxima.cells() == 0)
+                        << width << " by " << side;
+                }
+            }
+        }
+    }
+}
+
+TEST(Overview, OfNoHeightsHasNoRange) {
+    EXPECT_FALSE(overview(Raster<float>(), 1, 1).range);
+    Overview const found = overview(Raster<float>(Grid{4, 3, 1.0, 0.0, 3.0, ""}, none), 2, 2);
+    EXPECT_FALSE(found.range);
+    EXPECT_TRUE(std::isnan(found.means[0]));
+    EXPECT_TRUE(std::isnan(found.maxima[0]));
 }
 
 } // namespace box_means_test

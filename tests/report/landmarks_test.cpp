@@ -68,12 +68,15 @@ TEST(Landmarks, SummitsAreTheMostProminentWithRoomBetweenThem) {
 TEST(Landmarks, SummitsOfALargeDemAreItsHighestCells) {
     std::vector<std::pair<Cell, double>> const tops = {{{400, 40}, 200.0}, {{1501, 50}, 300.0}, {{2000, 44}, 250.0}};
     Raster<float> const dem = cones(tops, 2100, 90);
-    std::vector<report::Summit> const found = report::summits(dem, 10);
-    ASSERT_EQ(found.size(), 3U);
-    for (std::size_t k = 0; k < 3; ++k) {
-        auto const& [top, height] = tops[(k + 1) % 3];
-        EXPECT_EQ(found[k].at, dem.grid().centre(top)) << k;
-        EXPECT_EQ(found[k].z, height) << k;
+    Overview const seen = report::overview_of(dem, 100);
+    EXPECT_EQ(seen.means.width(), 100);
+    for (auto const& found : {report::summits(dem, 10), report::summits(dem, seen, 10)}) {
+        ASSERT_EQ(found.size(), 3U);
+        for (std::size_t k = 0; k < 3; ++k) {
+            auto const& [top, height] = tops[(k + 1) % 3];
+            EXPECT_EQ(found[k].at, dem.grid().centre(top)) << k;
+            EXPECT_EQ(found[k].z, height) << k;
+        }
     }
 }
 

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <thalweg/core/box_means.hpp>
+
 namespace thalweg::report {
 namespace {
 
@@ -58,13 +60,15 @@ TEST(Pictures, LandOfMoreColumnsThanPixelsIsShownByItsMeans) {
         plane[i] = static_cast<float>(5 * c.row + 2 * c.col);
     }
     Mask lakes(plane.grid());
-    report::ShownLand const whole(plane, lakes, 60);
+    Overview const all = overview(plane, 60, 1);
+    report::ShownLand const whole(plane, all, lakes);
     EXPECT_TRUE(whole.is_whole());
     EXPECT_EQ(&whole.dem(), &plane);
     EXPECT_FALSE(whole.sheet().whole.has_value());
 
     lakes[Cell{30, 20}] = lakes[Cell{31, 20}] = lakes[Cell{32, 20}] = 1;
-    report::ShownLand const coarse(plane, lakes, 40);
+    Overview const seen = overview(plane, 40, 1);
+    report::ShownLand const coarse(plane, seen, lakes);
     EXPECT_FALSE(coarse.is_whole());
     draw::MapSheet const sheet = coarse.sheet();
     EXPECT_EQ(sheet.dem.width(), 40);

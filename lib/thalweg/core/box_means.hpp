@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <utility>
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
@@ -40,5 +42,21 @@ Mask box_marks(Mask const& fine, std::int64_t columns);
 /// \param side [cells] >= 1 of a block
 /// \return by block the highest value, NaN where it has none; the last column and row of blocks may be narrower
 Raster<float> block_maxima(Raster<float> const& fine, std::int64_t side, Run const& run = {});
+
+/// \internal
+/// What pictures show of a raster.
+struct Overview {
+    std::optional<std::pair<double, double>> range; ///< lowest and highest value that is finite; nothing: there is none
+    Raster<float> means;  ///< as box_means(); without cells where the raster has no more columns than are wanted
+    Raster<float> maxima; ///< as block_maxima(); without cells for blocks of a single cell
+};
+
+/// \internal
+/// Finds an overview in one pass.
+/// \param fine a value that is no number (NaN) is none; may have no cells
+/// \param columns >= 1 of the means
+/// \param side [cells] >= 1 of the blocks
+/// \return the same for any number of threads
+Overview overview(Raster<float> const& fine, std::int64_t columns, std::int64_t side, Run const& run = {});
 
 } // namespace thalweg

@@ -67,7 +67,8 @@ std::string texture_of(report::Scene const& scene, Run const& run) {
     double const shape = static_cast<double>(dem.width() - 1) / static_cast<double>(dem.height() - 1);
     draw::GroundParams params;
     params.width_px = static_cast<int>(std::max(least_px, std::floor(longer_px * std::min(1.0, shape) + 0.5)));
-    report::ShownLand const land(dem, scene.lakes, draw::columns_of_ground(dem.grid(), params), run);
+    Overview const seen = overview(dem, draw::columns_of_ground(dem.grid(), params), 1, run);
+    report::ShownLand const land(dem, seen, scene.lakes, run);
     draw::MapSheet sheet = land.sheet();
     sheet.network = scene.network ? &*scene.network : nullptr;
     sheet.orders = scene.network ? &scene.orders : nullptr;

@@ -85,7 +85,8 @@ std::string web_picture(report::Scene const& scene, Run const& run) {
     draw::GroundParams params;
     params.shading = 0.8; // the page adds none
     params.width_px = static_cast<int>(std::max(least_px, std::floor(longer_px * shape + 0.5)));
-    report::ShownLand const land(dem, scene.lakes, draw::columns_of_ground(dem.grid(), params), run);
+    Overview const seen = overview(dem, draw::columns_of_ground(dem.grid(), params), 1, run);
+    report::ShownLand const land(dem, seen, scene.lakes, run);
     draw::MapSheet sheet = land.sheet();
     if (scene.sea) {
         sheet.sea = draw::Sea{scene.sea->is_around};

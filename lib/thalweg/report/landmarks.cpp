@@ -3,62 +3,22 @@
 #include <thalweg/report/landmarks.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
-#include <limits>
 
-#include <thalweg/core/box_means.hpp>
 #include <thalweg/measure/peaks/orometry.hpp>
 #include <thalweg/recipe/condition.hpp>
 
 namespace thalweg::report {
 
-std::optional<std::pair<double, double>> height_range(Raster<float> const& dem) {
-    // Sixteen ranges side by side, of the width of registers that each processor has: one would wait for itself at each
-    // cell, and wider vectors are stored and loaded again.
-    using Floats [[gnu::vector_size(16)]] = float;
-    constexpr std::size_t lanes = 4;
-    constexpr std::size_t sets = 4;
-    constexpr float none = std::numeric_limits<float>::infinity();
-    std::array<Floats, sets> low{};
-    std::array<Floats, sets> high{};
-    low.fill(Floats{} + none);
-    high.fill(Floats{} - none);
-    auto const take = [&](float const* from) {
-#pragma GCC unroll 4
-        for (std::size_t set = 0; set < sets; ++set) {
-            Floats z{};
-            std::memcpy(&z, from + set * lanes, sizeof z);
-            auto const is_number = z - z == 0.0F;
-            low[set] = (is_number & (z < low[set])) ? z : low[set];
-            high[set] = (is_number & (z > high[set])) ? z : high[set];
-        }
-    };
-    auto const values = dem.values();
-    std::size_t i = 0;
-    for (; i + sets * lanes <= values.size(); i += sets * lanes) {
-        take(values.data() + i);
-    }
-    if (i < values.size()) {
-        std::array<float, sets * lanes> rest{};
-        rest.fill(none);
-        std::copy(values.begin() + static_cast<std::ptrdiff_t>(i), values.end(), rest.begin());
-        take(rest.data());
-    }
-    float lowest = none;
-    float highest = -none;
-    for (std::size_t lane = 0; lane < sets * lanes; ++lane) {
-        lowest = std::min(lowest, low[lane / lanes][lane % lanes]);
-        highest = std::max(highest, high[lane / lanes][lane % lanes]);
-    }
-    return highest >= lowest ? std::optional(std::pair<double, double>(lowest, highest)) : std::nullopt;
-}
-
 namespace {
 
 constexpr std::int64_t most_cells = 1024; ///< a side: a sixteenth of it, which summits keep apart, is 64 cells
+
+/// [cells] of the blocks whose highest cells are compared.
+std::int64_t side_of_blocks(Grid const& grid) {
+    return std::max<std::int64_t>(1, (std::max(grid.width, grid.height) + most_cells - 1) / most_cells);
+}
 
 Cell highest_in(Raster<float> const& dem, Cell block, std::int64_t side) {
     Cell highest{block.col * side, block.row * side};
@@ -73,16 +33,29 @@ Cell highest_in(Raster<float> const& dem, Cell block, std::int64_t side) {
 
 } // namespace
 
+std::optional<std::pair<double, double>> height_range(Raster<float> const& dem) {
+    Run one;
+    one.threads = 1;
+    return overview(dem, std::max<std::int64_t>(1, dem.width()), 1, one).range;
+}
+
+Overview overview_of(Raster<float> const& dem, std::int64_t columns, Run const& run) {
+    return overview(dem, columns, side_of_blocks(dem.grid()), run);
+}
+
 std::vector<Summit> summits(Raster<float> const& dem, std::size_t most, Run const& run) {
-    auto const range = height_range(dem);
+    return summits(dem, overview_of(dem, std::max<std::int64_t>(1, dem.width()), run), most, run);
+}
+
+std::vector<Summit> summits(Raster<float> const& dem, Overview const& seen, std::size_t most, Run const& run) {
+    auto const& range = seen.range;
     if (!range || range->first == range->second) {
         return {};
     }
     Grid const& grid = dem.grid();
     std::int64_t const longest = std::max(grid.width, grid.height);
-    std::int64_t const side = (longest + most_cells - 1) / most_cells;
-    Raster<float> const maxima = side > 1 ? block_maxima(dem, side, run) : Raster<float>{};
-    Raster<float> const& land = side > 1 ? maxima : dem;
+    std::int64_t const side = side_of_blocks(grid);
+    Raster<float> const& land = side > 1 ? seen.maxima : dem;
     std::vector<measure::Peak> peaks = measure::prominent_peaks(land, (range->second - range->first) / 20.0, run);
     std::stable_sort(peaks.begin(), peaks.end(),
                      [](auto const& a, auto const& b) { return a.prominence_m > b.prominence_m; });

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include <thalweg/core/box_means.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
@@ -33,6 +35,17 @@ inline constexpr std::size_t summits_named = 24; ///< by maps and the page
 /// \param most number of summits at most
 /// \return the most prominent first, the highest of all at the front
 std::vector<Summit> summits(Raster<float> const& dem, std::size_t most, Run const& run = {});
+
+/// \internal
+/// Finds what a map takes from all cells of a DEM, in one pass.
+/// \param columns of pixels that the map has for it, >= 1
+/// \return means over pixels, highest cells of the blocks that summits() compares, and the range of heights
+Overview overview_of(Raster<float> const& dem, std::int64_t columns, Run const& run = {});
+
+/// \internal
+/// \param seen overview_of() the DEM, of any number of columns
+/// \return the same as without it
+std::vector<Summit> summits(Raster<float> const& dem, Overview const& seen, std::size_t most, Run const& run = {});
 
 /// The sea: cells of a terrain without data.
 struct Sea {

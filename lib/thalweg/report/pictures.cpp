@@ -30,26 +30,23 @@ NetworkOrders const* orders_of(Scene const& scene) {
     return scene.network ? &scene.orders : nullptr;
 }
 
-double relief_of(Raster<float> const& dem) {
-    auto const range = height_range(dem);
-    return range ? range->second - range->first : 0.0;
-}
-
 draw::Picture draw_map(Scene const& scene, Look const& look, Run const& run) {
     Raster<float> const& dem = *scene.dem;
-    double const interval = scene.contour_interval_m > 0.0 ? scene.contour_interval_m : round_interval(relief_of(dem));
     draw::MapParams params;
     params.title = scene.title;
     params.format = look.format;
     params.width_px = look.width_px > 0 ? look.width_px : params.width_px;
-    ShownLand const land(dem, scene.lakes, draw::columns_of_map(dem.grid(), params), run);
+    Overview const seen = overview_of(dem, draw::columns_of_map(dem.grid(), params), run);
+    double const relief = seen.range ? seen.range->second - seen.range->first : 0.0;
+    double const interval = scene.contour_interval_m > 0.0 ? scene.contour_interval_m : round_interval(relief);
+    ShownLand const land(dem, seen, scene.lakes, run);
     draw::MapSheet sheet = land.sheet();
     sheet.network = network_of(scene);
     sheet.orders = orders_of(scene);
     sheet.areas_m2 = scene.ds_area_m2;
     sheet.contours = land.contours(interval, run);
     params.contour_interval_m = sheet.contours.empty() ? 0.0 : interval;
-    return draw_land(std::move(sheet), scene.sea, summits(dem, summits_named, run), params);
+    return draw_land(std::move(sheet), scene.sea, summits(dem, seen, summits_named, run), params);
 }
 
 draw::Picture draw_wireframe(Scene const& scene, Look const& look) {
@@ -113,15 +110,10 @@ char const* name_of(PictureKind kind) {
     return "wireframe";
 }
 
-ShownLand::ShownLand(Raster<float> const& dem, Mask const& lakes, std::int64_t columns, Run const& run)
-    : dem_(dem), lakes_(lakes) {
-    if (dem.width() > columns) {
-        means_ = box_means(dem, columns, run);
-        if (lakes.cells() > 0) {
-            lakes_shown_ = box_means(lakes, columns, run);
-        }
-        auto const heights = height_range(dem).value_or(std::pair(1.0, 0.0));
-        whole_ = draw::WholeDem{dem.grid(), heights.first, heights.second};
+ShownLand::ShownLand(Raster<float> const& dem, Overview const& seen, Mask const& lakes, Run const& run)
+    : dem_(dem), seen_(seen), lakes_(lakes) {
+    if (!is_whole() && lakes.cells() > 0) {
+        lakes_shown_ = box_means(lakes, seen.means.width(), run);
     }
     hillshade_ = io::hillshade(this->dem());
 }
@@ -129,13 +121,16 @@ ShownLand::ShownLand(Raster<float> const& dem, Mask const& lakes, std::int64_t c
 draw::MapSheet ShownLand::sheet() const {
     draw::MapSheet sheet{dem(), hillshade_, nullptr, nullptr, {}};
     sheet.lakes = is_whole() ? &lakes_ : &lakes_shown_;
-    sheet.whole = whole_;
+    if (!is_whole()) {
+        auto const heights = seen_.range.value_or(std::pair(1.0, 0.0));
+        sheet.whole = draw::WholeDem{dem_.grid(), heights.first, heights.second};
+    }
     return sheet;
 }
 
 std::vector<std::pair<double, std::vector<Vec2>>> ShownLand::contours(double interval_m, Run const& run) const {
-    std::int64_t const half = std::max<std::int64_t>(1, means_.width() / 2);
-    Raster<float> const smooth = is_whole() ? Raster<float>{} : box_means(means_, half, run);
+    std::int64_t const half = std::max<std::int64_t>(1, seen_.means.width() / 2);
+    Raster<float> const smooth = is_whole() ? Raster<float>{} : box_means(seen_.means, half, run);
     std::vector<std::pair<double, std::vector<Vec2>>> lines;
     for (io::ContourLine& contour : io::contours(is_whole() ? dem_ : smooth, interval_m, run)) {
         lines.emplace_back(contour.z, std::move(contour.line));

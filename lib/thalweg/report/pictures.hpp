@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <thalweg/core/box_means.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
@@ -68,12 +69,12 @@ draw::Picture draw_picture(PictureKind kind, Scene const& scene, Look const& loo
 class ShownLand {
 public:
     /// \param dem outlives this object
+    /// \param seen overview() of the DEM of so many columns as the picture has pixels; outlives this object
     /// \param lakes on its grid, or without cells; outlives this object
-    /// \param columns of pixels, > 0
-    ShownLand(Raster<float> const& dem, Mask const& lakes, std::int64_t columns, Run const& run = {});
+    ShownLand(Raster<float> const& dem, Overview const& seen, Mask const& lakes, Run const& run = {});
 
-    bool is_whole() const { return means_.cells() == 0; }
-    Raster<float> const& dem() const { return is_whole() ? dem_ : means_; }
+    bool is_whole() const { return seen_.means.cells() == 0; }
+    Raster<float> const& dem() const { return is_whole() ? dem_ : seen_.means; }
     /// \return heights, hillshade and lakes; needs this object
     draw::MapSheet sheet() const;
     /// \return height and line of the contours of what is shown: of means over two pixels, where finer ones would be a
@@ -82,11 +83,10 @@ public:
 
 private:
     Raster<float> const& dem_;
+    Overview const& seen_;
     Mask const& lakes_;
-    Raster<float> means_; ///< without cells: the DEM is shown
     Mask lakes_shown_;
     Raster<std::uint8_t> hillshade_;
-    std::optional<draw::WholeDem> whole_;
 };
 
 /// Draws a map with what every map of a terrain has: the sea, heights of summits, its coordinate system in words.

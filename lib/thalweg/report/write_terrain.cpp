@@ -54,22 +54,23 @@ std::vector<std::string> files_left_in(std::string const& folder) {
     return fs::exists(report) ? files_of_report(io::read_text(report, largest_report)) : std::vector<std::string>{};
 }
 
-double relief_m(make::MakeResult const& t) {
-    auto const heights = height_range(t.terrain.ground.dem);
+using Heights = std::optional<std::pair<double, double>>;
+
+double relief_m(Heights const& heights) {
     return heights ? heights->second - heights->first : 0.0;
 }
 
 /// In the recipe's unit.
-/// \param known relief [m]; nothing: it is measured where it is needed
-double contour_interval(make::MakeResult const& t, std::optional<double> known = {}) {
+/// \param heights [m] range of the terrain
+double contour_interval(make::MakeResult const& t, Heights const& heights) {
     double const asked = t.recipe.output.contour_interval;
-    return asked > 0.0 ? asked : round_interval((known ? *known : relief_m(t)) / metres_in(t.recipe.output.units));
+    return asked > 0.0 ? asked : round_interval(relief_m(heights) / metres_in(t.recipe.output.units));
 }
 
 /// For pictures and the page, which are in metres.
-double contour_interval_m(make::MakeResult const& t, std::optional<double> known = {}) {
-    return t.recipe.output.units == HeightUnit::metre ? contour_interval(t, known)
-                                                      : round_interval(known ? *known : relief_m(t));
+double contour_interval_m(make::MakeResult const& t, Heights const& heights) {
+    return t.recipe.output.units == HeightUnit::metre ? contour_interval(t, heights)
+                                                      : round_interval(relief_m(heights));
 }
 
 /// Writes the network in another schema, with confluences split if it limits the number of arcs at a node.
@@ -209,24 +210,36 @@ NetworkOrders const* orders_of(make::MakeResult const& t) {
 /// What several files of a terrain's surface need.
 class SurfaceParts {
 public:
-    explicit SurfaceParts(make::MakeResult const& made) : made_(made) {}
+    /// \param map whose width its means have
+    explicit SurfaceParts(make::MakeResult const& made, draw::MapParams map = {}) : made_(made), map_(std::move(map)) {}
 
+    Overview const& overview(Run const& run) {
+        std::call_once(seen_made_, [&] {
+            Raster<float> const& dem = made_.terrain.ground.dem;
+            seen_ = overview_of(dem, draw::columns_of_map(dem.grid(), map_), run);
+        });
+        return seen_;
+    }
     /// In metres, for a map of all cells.
     std::vector<io::ContourLine> const& contours(Run const& run) {
-        std::call_once(contours_made_,
-                       [&] { contours_ = io::contours(made_.terrain.ground.dem, contour_interval_m(made_), run); });
+        double const step = contour_interval_m(made_, overview(run).range);
+        std::call_once(contours_made_, [&] { contours_ = io::contours(made_.terrain.ground.dem, step, run); });
         return contours_;
     }
     std::vector<Summit> const& summits(Run const& run) {
+        Overview const& seen = overview(run);
         std::call_once(summits_made_,
-                       [&] { summits_ = report::summits(made_.terrain.ground.dem, summits_named, run); });
+                       [&] { summits_ = report::summits(made_.terrain.ground.dem, seen, summits_named, run); });
         return summits_;
     }
 
 private:
     make::MakeResult const& made_;
+    draw::MapParams map_;
+    std::once_flag seen_made_;
     std::once_flag contours_made_;
     std::once_flag summits_made_;
+    Overview seen_;
     std::vector<io::ContourLine> contours_;
     std::vector<Summit> summits_;
 };
@@ -240,14 +253,14 @@ bool shows_each_cell(make::MakeResult const& t, draw::MapParams const& map) {
 draw::Picture map_with(make::MakeResult const& t, SurfaceParts& parts, draw::MapParams map, Run const& run) {
     Raster<float> const& dem = t.terrain.ground.dem;
     Mask const lakes = t.terrain.bed.lakes > 0 ? make::lake_cells(t.terrain.bed.channels) : Mask{};
-    ShownLand const land(dem, lakes, draw::columns_of_map(dem.grid(), map), run);
+    Overview const& seen = parts.overview(run);
+    ShownLand const land(dem, seen, lakes, run);
     draw::MapSheet sheet = land.sheet();
     sheet.network = network_of(t);
     sheet.orders = orders_of(t);
     sheet.ridges = &t.terrain.ground.ridges;
     sheet.areas_m2 = t.terrain.water.areas.ds_area_m2;
-    auto const relief = sheet.whole ? std::optional(sheet.whole->high_m - sheet.whole->low_m) : std::nullopt;
-    map.contour_interval_m = contour_interval_m(t, relief);
+    map.contour_interval_m = contour_interval_m(t, seen.range);
     map.remark = remark_on_heights(t);
     if (land.is_whole()) {
         for (auto const& [z, line] : parts.contours(run)) {
@@ -261,7 +274,7 @@ draw::Picture map_with(make::MakeResult const& t, SurfaceParts& parts, draw::Map
 
 void write_contours(make::MakeResult const& t, SurfaceParts& parts, io::OutputFolder const& out, Run const& run) {
     HeightUnit const unit = t.recipe.output.units;
-    double const step = contour_interval(t);
+    double const step = contour_interval(t, parts.overview(run).range);
     auto const write = [&](std::vector<io::ContourLine> const& contours) {
         io::write_contours(contours, step, t.terrain.grid.crs, out.path("contours.gpkg"), unit, run);
     };
@@ -367,6 +380,12 @@ private:
     bool writes(recipe::OutputFiles files) const { return made_.recipe.output.has(files); }
 
     void begin_surface() {
+        // All threads read the cells once, before jobs of one thread begin.
+        if (writes(recipe::OutputFiles::contours) || writes(recipe::OutputFiles::pictures)) {
+            Stopwatch const stopwatch;
+            parts_.overview(run_);
+            times_.push_back(stopwatch.time_of("overview"));
+        }
         // The longest first, and the one with the most memory: later the assessment has its catchments beside it.
         if (writes(recipe::OutputFiles::contours)) {
             add("write_contours", [this](Run const& run) { write_contours(made_, parts_, out_, run); });
@@ -422,7 +441,7 @@ PageParams page_params_of(make::MakeResult const& made, std::string recipe) {
     PageParams params;
     params.recipe = std::move(recipe);
     if (made.terrain.has_surface()) {
-        params.contour_interval_m = contour_interval_m(made);
+        params.contour_interval_m = contour_interval_m(made, height_range(made.terrain.ground.dem));
         params.sea = sea_of(made.terrain);
         params.lakes = make::lake_cells(made.terrain.bed.channels);
     }
@@ -455,7 +474,7 @@ draw::Picture draw_map(make::MakeResult const& made, DrawMapParams const& params
     draw::MapParams map;
     map.title = params.title.value_or(recipe::title_of(made.recipe));
     map.width_px = params.width_px;
-    SurfaceParts parts(made);
+    SurfaceParts parts(made, map);
     return map_with(made, parts, map, run);
 }
 
