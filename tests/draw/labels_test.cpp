@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <thalweg/draw/internal/water.hpp>
+
 #include "small_land.hpp"
 
 namespace labels_test {
@@ -114,7 +116,7 @@ Placed placed_on(Cones const& cones) {
     draw::MapSheet sheet{cones.dem, cones.hillshade, nullptr, nullptr, cones.contours};
     sheet.spot_heights = cones.spots;
     draw::paint(10.0, 10.0, draw::Format::png, [&](draw::Cairo* canvas) {
-        out.labels = draw::place_labels(canvas, sheet, out.window, {}, 20.0, 1.0);
+        out.labels = draw::place_labels(canvas, sheet, out.window, draw::lines_on_sheet(sheet, out.window), 20.0, 1.0);
     });
     return out;
 }

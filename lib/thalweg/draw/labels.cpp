@@ -39,9 +39,9 @@ bool overlap(Slab const& a, Slab const& b) {
 namespace {
 
 /// Where lines run that labels avoid, in squares of a few pixels.
-class LinesOnSheet {
+class AvoidedSquares {
 public:
-    LinesOnSheet(Box frame, double square_px)
+    AvoidedSquares(Box frame, double square_px)
         : frame_(frame), square_(square_px), columns_(squares(frame.width)), rows_(squares(frame.height)),
           has_line_(static_cast<std::size_t>(columns_ * rows_)) {}
 
@@ -107,9 +107,10 @@ struct Search {
     Cairo* canvas;
     MapSheet const& sheet;
     Window const& window;
+    LinesOnSheet const& lines;
     double interval_m;
     double unit;
-    LinesOnSheet const& lines;
+    AvoidedSquares const& avoided;
     Labels labels = {};
 
     bool is_free(Slab const& room) const {
@@ -151,7 +152,7 @@ void place_spot(Search& search, SpotHeight const& spot, int decimals) {
     Label best = label;
     for (Vec2 const off : places) {
         label.room.centre = mark.centre + off;
-        double const covered = search.lines.covered(label.room);
+        double const covered = search.avoided.covered(label.room);
         if (covered < least && search.is_free(label.room)) {
             least = covered;
             best = label;
@@ -225,15 +226,14 @@ Seat seat_on(Search const& search, std::vector<Vec2> const& line, std::vector<do
 std::vector<Seat> seats_on_contours(Search const& search, TextStyle const& style, int decimals) {
     std::vector<Seat> seats;
     for (std::size_t c = 0; c < search.sheet.contours.size(); ++c) {
-        auto const& [height_m, plan] = search.sheet.contours[c];
-        if (plan.size() < 2 || kind_of_contour(height_m, search.interval_m) != ContourKind::index ||
-            (search.sheet.sea && height_m <= 0.0)) {
+        double const height_m = search.sheet.contours[c].first;
+        std::vector<Vec2> const& line = search.lines.contours[c];
+        if (line.size() < 2 || kind_of_contour(height_m, search.interval_m) != ContourKind::index) {
             continue;
         }
         Slab room;
         room.half_length = 0.5 * text_width(search.canvas, number(height_m, decimals), style) + 2.5 * search.unit;
         room.half_height = half_digit * style.size + 1.5 * search.unit;
-        std::vector<Vec2> const line = on_sheet(plan, search.window);
         std::vector<double> along(line.size(), 0.0);
         for (std::size_t i = 1; i < line.size(); ++i) {
             along[i] = along[i - 1] + distance(line[i - 1], line[i]);
@@ -242,7 +242,7 @@ std::vector<Seat> seats_on_contours(Search const& search, TextStyle const& style
         for (double where = 0.0; where + 2.0 * room.half_length < along.back(); where += step) {
             Seat seat = seat_on(search, line, along, where, room);
             seat.contour = c;
-            if (std::isfinite(seat.badness) && search.lines.covered(seat.room) == 0.0) {
+            if (std::isfinite(seat.badness) && search.avoided.covered(seat.room) == 0.0) {
                 seats.push_back(seat);
             }
         }
@@ -274,25 +274,22 @@ void place_on_contours(Search& search) {
     }
 }
 
-LinesOnSheet lines_to_avoid(MapSheet const& sheet, Window const& window, Shores const& shores, double unit) {
-    LinesOnSheet lines(window.frame, 2.0 * unit);
-    if (sheet.network != nullptr) {
-        for (ArcId a = 0; a < sheet.network->planform.arc_count(); ++a) {
-            lines.add(on_sheet(sheet.network->planform.arc(a).line, window));
+AvoidedSquares squares_to_avoid(LinesOnSheet const& lines, Window const& window, double unit) {
+    AvoidedSquares squares(window.frame, 2.0 * unit);
+    for (auto const* const list : {&lines.rivers, &lines.sea, &lines.lakes}) {
+        for (std::vector<Vec2> const& line : *list) {
+            squares.add(line);
         }
     }
-    for (std::vector<Vec2> const& shore : shores) {
-        lines.add(shore);
-    }
-    return lines;
+    return squares;
 }
 
 } // namespace
 
-Labels place_labels(Cairo* canvas, MapSheet const& sheet, Window const& window, Shores const& shores,
+Labels place_labels(Cairo* canvas, MapSheet const& sheet, Window const& window, LinesOnSheet const& lines,
                     double contour_interval_m, double unit) {
-    LinesOnSheet const lines = lines_to_avoid(sheet, window, shores, unit);
-    Search search{canvas, sheet, window, contour_interval_m, unit, lines};
+    AvoidedSquares const avoided = squares_to_avoid(lines, window, unit);
+    Search search{canvas, sheet, window, lines, contour_interval_m, unit, avoided};
     int const decimals = decimals_of_spots(sheet);
     for (SpotHeight const& spot : sheet.spot_heights) {
         place_spot(search, spot, decimals);

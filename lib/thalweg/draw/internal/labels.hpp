@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <thalweg/draw/internal/canvas.hpp>
-#include <thalweg/draw/internal/water.hpp>
+#include <thalweg/draw/internal/map.hpp>
 #include <thalweg/draw/map.hpp>
 
 namespace thalweg::draw {
@@ -44,8 +44,8 @@ struct Labels {
 /// summits first, by their importance, then those of index contours, on gentle and straight stretches first. None is
 /// upside down.
 /// \param canvas measures texts
-/// \param shores [px] of sea and lakes
-Labels place_labels(Cairo* canvas, MapSheet const& sheet, Window const& window, Shores const& shores,
+/// \param lines of the sheet
+Labels place_labels(Cairo* canvas, MapSheet const& sheet, Window const& window, LinesOnSheet const& lines,
                     double contour_interval_m, double unit);
 
 /// Draws summits and labels.

@@ -25,6 +25,8 @@ HeightRange height_range(Raster<float> const& dem);
 /// \return the heights of the whole DEM, and the holes of what the sheet shows of it
 HeightRange height_range(MapSheet const& sheet);
 
+struct Label; // labels.hpp
+
 struct Relief {
     std::vector<std::uint32_t> pixels; ///< premultiplied ARGB, row-major from the north-west
     int width = 0;                     ///< [px]
@@ -55,8 +57,23 @@ enum class ContourKind : std::uint8_t { ordinary, index };
 
 ContourKind kind_of_contour(double height_m, double interval_m);
 
-/// Places a line on the sheet, without the vertices that nobody sees: those less than 0.2 px from the others' line.
-std::vector<Vec2> on_sheet(std::vector<Vec2> const& line, Window const& window);
+/// Closed lines; areas between an outer and an inner one are water (even-odd rule).
+using Shores = std::vector<std::vector<Vec2>>;
+
+/// Lines of a map in their places [px], without the vertices that nobody sees: those less than 0.2 px from the others'
+/// line.
+struct LinesOnSheet {
+    std::vector<std::vector<Vec2>> rivers;   ///< by arc
+    std::vector<std::vector<Vec2>> contours; ///< as the sheet's; empty: the shore
+    Shores sea;
+    Shores lakes;
+};
+
+/// \return rivers and contours of a sheet
+LinesOnSheet lines_on_sheet(MapSheet const& sheet, Window const& window);
+
+/// The shores of a mask in their places.
+Shores shores_on_sheet(Mask const& water, Window const& window);
 
 /// A small triangle around a place.
 void draw_summit(Cairo* sheet, Vec2 at, double half_height);
@@ -75,6 +92,17 @@ LineStyle style_of_area(double area_m2, RiverScale const& scale, double unit);
 LineStyle style_of_order(int order, RiverScale const& scale, double unit);
 
 LineStyle ridge_style(double unit);
+
+RiverScale river_scale(MapSheet const& sheet);
+bool has_ridges(MapSheet const& sheet);
+/// \return the grid of the DEM that the sheet shows or has means of
+Grid const& whole_grid(MapSheet const& sheet);
+
+/// \param labels in whose rooms contours have gaps
+void draw_contours(Cairo* canvas, MapSheet const& sheet, LinesOnSheet const& lines, Window const& window,
+                   double interval_m, double unit, std::vector<Label> const& labels);
+void draw_ridges(Cairo* canvas, MapSheet const& sheet, Window const& window, double unit);
+void draw_rivers(Cairo* canvas, MapSheet const& sheet, LinesOnSheet const& lines, Window const& window, double unit);
 
 // The legend below a map.
 

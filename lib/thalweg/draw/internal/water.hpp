@@ -12,9 +12,6 @@ namespace thalweg::draw {
 
 // Sea and lakes of a map.
 
-/// Closed lines; areas between an outer and an inner one are water (even-odd rule).
-using Shores = std::vector<std::vector<Vec2>>;
-
 /// Traces the shores of water. A shore is smoothed by a cell; water goes on beyond the grid as on its border.
 /// \param water its cells
 /// \return [m] in plan; beyond the grid they close far off it
