@@ -31,6 +31,12 @@ export function keysOf(exe) {
   });
 }
 
+/** Presets as @@STUDIO@@ has them, in other words. */
+export function presetsOf(exe) {
+  const all = [['hills', 'gentle hills', 'a plain'], ['basin-and-range', 'long ranges', 'basins of sediment']];
+  return all.map(([name, meaning, not_meant]) => ({ name, meaning, not_meant, recipe: execFileSync(exe, ['recipe', '--preset', name], { encoding: 'utf8' }) }));
+}
+
 /** The values of a recipe.toml. */
 export function valuesOf(toml) {
   const values = {};
@@ -154,10 +160,10 @@ function means(z, width, height, cells) {
 const span = (values) => values.reduce(([low, high, none], z) => (Number.isNaN(z) ? [low, high, none + 1] : [Math.min(low, z), Math.max(high, z), none]), [Infinity, -Infinity, 0]);
 
 /**
- * lands: by the least pruning length they are for, [[prune, land], …] ascending; keys, values: of the recipe; pause: [ms]
+ * lands: by the least pruning length they are for, [[prune, land], …] ascending; keys, presets, values: of the recipe; pause: [ms]
  * between messages of a job; drawing: what is drawn (fake_drawing.mjs), null: it speaks of none. Gives {url, asked: messages of the page, jobs, send(message), drop(): ends all sockets, close()}.
  */
-export async function fakeStudio({ lands, keys, values: begin, pause = 20, tree = cluster(), port = 0, drawing = null }) {
+export async function fakeStudio({ lands, keys, presets = [], values: begin, pause = 20, tree = cluster(), port = 0, drawing = null }) {
   const token = 't0k3n';
   const sockets = new Set();
   const asked = [];
@@ -220,7 +226,12 @@ export async function fakeStudio({ lands, keys, values: begin, pause = 20, tree 
 
   function applied(edit) {
     const next = { ...values };
-    for (const { set, unset, value } of edit.steps) {
+    for (const { set, unset, value, recipe } of edit.steps) {
+      if (recipe) {
+        for (const key of Object.keys(next)) delete next[key];
+        Object.assign(next, valuesOf(recipe));
+        continue;
+      }
       const path = set ?? unset;
       const key = byPath.get(path?.replace(/\.\d+(?=\.)/, ''));
       if (!key && !unset) throw new Error(`unknown key '${path}'`);
@@ -290,7 +301,7 @@ export async function fakeStudio({ lands, keys, values: begin, pause = 20, tree 
       asked.push({ get: url.pathname });
       response.writeHead(200, { 'Content-Type': 'application/octet-stream' }).end('contents');
     } else {
-      const about = JSON.stringify({ version: '0.2.0', folder: 'studio', keys }).replaceAll('<', '\\u003c');
+      const about = JSON.stringify({ version: '0.2.0', folder: 'studio', keys, presets }).replaceAll('<', '\\u003c');
       let html = fs.readFileSync(path.join(web, 'dist/report.html'), 'utf8');
       for (const [marker, text] of [['@@TITLE@@', 'studio'], ['@@DATA@@', ''], ['@@HEIGHTS@@', ''], ['@@LINES@@', ''], ['@@WATER@@', ''], ['@@STUDIO@@', about]]) html = html.replace(marker, () => text);
       html = html.replace("connect-src 'none'", "connect-src 'self'");

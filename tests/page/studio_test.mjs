@@ -9,7 +9,7 @@ import os from 'node:os';
 import path from 'node:path';
 import { after, before, beforeEach, afterEach, describe, test } from 'node:test';
 import { barriers, launch, look, open, set } from './browser.mjs';
-import { fakeStudio, keysOf, landOf, valuesOf } from './fake_studio.mjs';
+import { fakeStudio, keysOf, landOf, presetsOf, valuesOf } from './fake_studio.mjs';
 
 const exe = process.env.THALWEG_EXE;
 const place = fs.mkdtempSync(path.join(os.tmpdir(), 'thalweg-studio-'));
@@ -17,6 +17,7 @@ let gl;
 let flat;
 let lands;
 let keys;
+let presets;
 let values;
 before(async () => {
   lands = [[0, 6], [20, 24], [200, 6]].map(([from, prune], k) => {
@@ -26,6 +27,7 @@ before(async () => {
     return [from, landOf(folder)];
   });
   keys = keysOf(exe);
+  presets = presetsOf(exe);
   values = valuesOf(fs.readFileSync(path.join(place, 'land0/recipe.toml'), 'utf8'));
   [gl, flat] = await Promise.all([launch('webgl'), launch('no3d')]);
 });
@@ -40,7 +42,7 @@ let page;
 let complaints;
 let requests;
 async function visit(browser = gl, context = {}, pause = 15) {
-  server = await fakeStudio({ lands, keys, values, pause });
+  server = await fakeStudio({ lands, keys, presets, values, pause });
   page = await browser.newPage({ viewport: { width: 1280, height: 720 }, ...context });
   complaints = [];
   requests = [];
@@ -175,6 +177,32 @@ describe('the studio', () => {
     }, value);
     await tried(lands[1][1]);
     assert.equal(asked('edit').length, 1);
+  });
+
+  test('a document begins with a preset by one edit; the list folds with the first edit of another kind', async () => {
+    const isOpen = () => page.$eval('#presets', (e) => e.open);
+    assert.equal(await isOpen(), true);
+    assert.deepEqual(await page.$$eval('#presets button', (all) => all.map((e) => Array.from(e.children, (c) => c.textContent))), [
+      ['Hills', 'Gentle hills.', 'Not a plain.'], ['Basin and range', 'Long ranges.', 'Not basins of sediment.']]);
+    await page.click('[data-preset="basin-and-range"]');
+    await settled();
+    assert.deepEqual(asked('edit').map((m) => m.edit), [{ name: 'preset basin-and-range', steps: [{ recipe: presets[1].recipe }] }]);
+    assert.equal(await page.getAttribute('.tools button >> nth=0', 'title'), 'Undo: preset basin-and-range (Ctrl+Z)');
+    assert.equal(await page.inputValue('#source'), 'forest');
+    assert.equal(await isOpen(), true);
+    await page.keyboard.press('Control+z');
+    await settled();
+    assert.equal(await page.inputValue('#source'), 'dla');
+    assert.equal(await isOpen(), true);
+    await run({ set: 'network.prune', value: '30' });
+    await settled();
+    assert.equal(await isOpen(), false);
+    await page.click('#presets summary');
+    assert.equal(await isOpen(), true);
+    await run({ set: 'seed', value: '9' });
+    await settled();
+    assert.equal(await isOpen(), true, 'who unfolds it again has it so');
+    assert.deepEqual(complaints, []);
   });
 
   test('Undo, redo and what was before, by keys and buttons', async () => {

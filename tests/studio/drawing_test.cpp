@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <random>
@@ -11,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <support.hpp>
@@ -521,6 +523,40 @@ TEST(Drawing, FilesHoldItBitForBit) {
         EXPECT_EQ(read.rivers[r].lambda, drawing.rivers[r].lambda);
     }
     EXPECT_EQ(read.coasts, drawing.coasts);
+}
+
+TEST(Drawing, RiversMeanderThatAreDrawnOnAnEmptySheet) {
+    std::int64_t count = 0;
+    PutInput const put = [&](std::string const& key, std::string const& name, auto const&) {
+        return TakeInput{key, fmt::format("inputs/{}/{}", ++count, name)};
+    };
+    auto const cleared = [&](Document const& document) {
+        return apply(document, empty_sheet(document, grid, put)).document;
+    };
+    auto const with_a_river = [&](Document const& document, Drawing const& before) {
+        DrawResult const after = drawn(before, DrawRiver{line_of({{70, 5}, {70, 50}})});
+        return apply(document, edit_between(document, before, after, put)).document;
+    };
+    auto const with = [&](Document const& document, char const* meander) {
+        return apply(document, {"", {SetKey{"network.meander", meander}}}).document;
+    };
+    Document const grown = document_of(recipe::write_recipe(recipe::default_recipe_on(80, 60)));
+    Document const empty = cleared(grown);
+    ASSERT_EQ(empty.recipe.network->meander, 1.0);
+    EXPECT_EQ(with_a_river(empty, sheet()).recipe.network->meander, 1.0);
+    EXPECT_EQ(cleared(with(grown, "0.5")).recipe.network->meander, 0.5) << "the recipe says how much";
+
+    Document const straight = with(empty, "0");
+    EXPECT_EQ(with_a_river(straight, sheet()).recipe.network->meander, 0.0) << "who switched it off has it so";
+    EXPECT_EQ(cleared(with_a_river(straight, sheet())).recipe.network->meander, 0.0);
+    Document const usual = apply(empty, {"", {UnsetKey{"network.meander"}}}).document;
+    EXPECT_EQ(with_a_river(usual, sheet()).recipe.network->meander, std::nullopt) << "likewise by the default of lines";
+    EXPECT_EQ(cleared(with(grown, "0")).recipe.network->meander, 0.0);
+
+    Document const changed = with_a_river(with(grown, "1"), two_rivers());
+    EXPECT_EQ(changed.recipe.network->meander, std::nullopt) << "rivers that grew have their bends";
+    Document const diffused = apply(grown, {"", {SetKey{"surface.method", "diffuse"}}}).document;
+    EXPECT_EQ(cleared(diffused).recipe.network->meander, std::nullopt) << "as for rivers that grow";
 }
 
 TEST(Drawing, FilesHoldLevelsAndHolesOfMasks) {

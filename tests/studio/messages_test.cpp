@@ -14,6 +14,7 @@
 #include <support.hpp>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/recipe/presets.hpp>
 
 namespace messages_test {
 
@@ -187,6 +188,19 @@ TEST(Messages, GiveThePageEveryKey) {
         if (key["path"] == "seed") {
             EXPECT_TRUE(key["high"].is_null());
         }
+    }
+}
+
+TEST(Messages, GiveThePageEveryPreset) {
+    json const given = json::parse(page_parameters("land"))["presets"];
+    ASSERT_EQ(given.size(), recipe::presets().size());
+    for (std::size_t i = 0; i < given.size(); ++i) {
+        recipe::Preset const& preset = recipe::presets()[i];
+        EXPECT_EQ(given[i]["name"], preset.name);
+        EXPECT_EQ(given[i]["meaning"], preset.meaning);
+        EXPECT_EQ(given[i]["not_meant"], preset.not_meant);
+        recipe::Recipe const recipe = recipe::with_preset(recipe::default_recipe(), preset.name);
+        EXPECT_EQ(given[i]["recipe"], recipe::write_recipe(recipe)) << preset.name;
     }
 }
 

@@ -23,8 +23,10 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
+#include <thalweg/recipe/presets.hpp>
 #include <thalweg/studio/document_folder.hpp>
 #include <thalweg/studio/drawing_files.hpp>
+#include <thalweg/studio/internal/messages.hpp>
 
 #include "random_draw.hpp"
 #include "random_edits.hpp"
@@ -657,6 +659,27 @@ TEST_F(Studios, AnEmptySheetIsDrawnOn) {
     window.wait_for(2);
 }
 
+// Rivers meander about the lines that are drawn, which stay what they are.
+TEST_F(Studios, RiversMeanderAboutDrawnLines) {
+    std::string const folder = document_for("", at("sheet"), true);
+    Running const studio({.folder = folder, .threads = 2});
+    Window window(studio);
+    EXPECT_EQ(window.set("grid.width", "128")["ok"], true);
+    EXPECT_EQ(window.set("grid.height", "96")["ok"], true);
+    auto const sinuosity = [&] { // of the terrain's river, by the length of its line
+        window.ask(R"({"id": 7, "do": "export"})");
+        auto const report = json::parse(test::bytes_of(folder + "/terrain/report.json"));
+        return report["network"]["length_m"].get<double>() / report["given"]["given_m"].get<double>();
+    };
+    ASSERT_EQ(window.draw({{"verb", "river"}, {"points", {60, 10, 64, 96}}})["ok"], true);
+    json const line = window.drawing()["rivers"][0]["line"];
+    EXPECT_EQ(line.size(), 4U);
+    EXPECT_GT(sinuosity(), 1.05);
+    EXPECT_EQ(window.set("network.meander", "0")["ok"], true);
+    EXPECT_EQ(window.drawing()["rivers"][0]["line"], line);
+    EXPECT_NEAR(sinuosity(), 1.0, 1e-3);
+}
+
 // The page lets pins and ridges be drawn up to the border, and snaps them to it.
 TEST_F(Studios, WhatIsDrawnOnTheBorderIsExported) {
     std::string const folder = document_for("", at("sheet"), true);
@@ -673,6 +696,35 @@ TEST_F(Studios, WhatIsDrawnOnTheBorderIsExported) {
     EXPECT_EQ(ridge["ok"], true) << ridge;
     json const written = window.ask(R"({"id": 7, "do": "export"})");
     EXPECT_EQ(written["ok"], true) << written;
+}
+
+// As the page does it: the recipe of a preset takes the place of the document's, by one edit.
+TEST_F(Studios, APresetBeginsTheDocumentAnew) {
+    json const preset = json::parse(page_parameters(""))["presets"][0];
+    DocumentFolder document(at("doc"));
+    std::string const before = recipe();
+    document.edit({"preset", {ReplaceRecipe{preset["recipe"]}}});
+    EXPECT_EQ(recipe(), preset["recipe"]) << "nothing of it is without effect";
+    EXPECT_TRUE(document.undo());
+    EXPECT_EQ(recipe(), before);
+    EXPECT_FALSE(document.undo());
+}
+
+TEST_F(Studios, ANewDocumentHasThePresetAsked) {
+    std::string const name = recipe::presets().front().name;
+    json const printed = json::parse(page_parameters(""))["presets"][0]["recipe"];
+    EXPECT_EQ(document_for("", at("new"), false, name), at("new"));
+    EXPECT_EQ(test::bytes_of(at("new/recipe.toml")), printed);
+    document_for(at("land.toml"), at("around"), false, name);
+    std::string const around = test::bytes_of(at("around/recipe.toml"));
+    EXPECT_TRUE(test::has(around, "prune = 6.0", "uplift_pattern = 'domes'")) << around;
+    document_for("", at("sheet"), true, name);
+    std::string const sheet = test::bytes_of(at("sheet/recipe.toml"));
+    EXPECT_TRUE(test::has(sheet, "source = 'lines'", "uplift_pattern = 'domes'")) << sheet;
+    EXPECT_TRUE(test::has(test::error_of([&] { document_for(at("doc"), "", false, name); }), "--preset"));
+    EXPECT_TRUE(test::has(test::error_of([&] { document_for("", at("doc"), false, name); }), "BadInput"));
+    EXPECT_TRUE(test::has(test::error_of([&] { document_for("", at("no"), false, "hils"); }), "Did you mean"));
+    EXPECT_FALSE(fs::exists(at("no")));
 }
 
 TEST_F(Studios, FindTheDocumentMeant) {

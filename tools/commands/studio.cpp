@@ -21,6 +21,7 @@
 #include <thalweg/studio/studio.hpp>
 
 #include "commands/commands.hpp"
+#include "commands/options.hpp"
 #include "terminal/terminal.hpp"
 
 namespace thalweg::tools {
@@ -33,6 +34,7 @@ struct StudioOptions {
     studio::StudioParams params;
     bool no_browser = false;
     bool blank = false;
+    std::string preset;
 };
 
 /// A page that leads to an address, readable by this user alone. Command lines are readable by every user of the
@@ -91,7 +93,8 @@ bool open_browser(WayIn const& page) {
 }
 
 int run_studio(StudioOptions& options, Session const& session) {
-    options.params.folder = studio::document_for(options.input, options.folder, options.blank, session.run);
+    options.params.folder =
+        studio::document_for(options.input, options.folder, options.blank, options.preset, session.run);
     options.params.threads = session.run.threads;
     studio::Studio studio(options.params);
     session.run.tell("document", options.params.folder);
@@ -129,6 +132,9 @@ Command add_studio(CLI::App& app, Session& session) {
            "taken.")
         ->type_name("DIR");
     app.add_flag("--blank", options->blank, "Begin with an empty sheet to draw rivers on.");
+    app.add_option("--preset", options->preset,
+                   "Begin with land of this kind: a preset, as for make. The page offers them too.")
+        ->check(CLI::IsMember(preset_names()));
     app.add_option("--port", options->params.serve.port, "Serve at this port; 0: any free one.")
         ->type_name("N")
         ->capture_default_str();
@@ -144,6 +150,7 @@ Command add_studio(CLI::App& app, Session& session) {
         "Examples:\n"
         "  thalweg studio\n"
         "  thalweg studio --blank -o out/sheet\n"
+        "  thalweg studio --preset hills -o out/hilly\n"
         "  thalweg studio samples/dla.toml -o out/cluster --no-browser\n"
         "  thalweg studio samples/walker_nhdplus.gpkg\n"
         "  thalweg studio samples/jacksboro_utm16.tif\n");

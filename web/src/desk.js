@@ -34,11 +34,15 @@ export class Desk {
   /** @type {(value?: any) => void} */
   #arrived = () => {};
 
-  /** view: of page.js; ask(question): a promise of the reply; revision(): of the document now. */
-  constructor(view, ask, revision) {
+  /**
+   * view: of page.js; ask(question): a promise of the reply; revision(): of the document now; bends(): whether rivers
+   * meander about the lines that are drawn.
+   */
+  constructor(view, { ask, revision, bends }) {
     this.view = view;
     this.ask = ask;
     this.revision = revision;
+    this.bends = bends;
   }
 
   /** Whether the drawing is of the document as it is now: rivers of a generator come with their land. */

@@ -311,6 +311,7 @@ export class Inspector {
     if (drawing.kind === 'shown' && drawing.rivers.length) {
       return 'The network becomes drawn lines; undo brings the generator back.';
     }
+    if (chosen?.kind === 'river' && this.#desk.bends()) return 'It meanders about this line (network.meander).';
     if (chosen) return '';
     return tool.id === 'select' ? this.#countAll() : `${tool.help}.`;
   }

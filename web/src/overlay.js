@@ -228,6 +228,7 @@ export class Overlay {
     const { chosen } = this.desk;
     const stamp = [
       held,
+      this.desk.bends(),
       width,
       height,
       ratio,
@@ -257,7 +258,9 @@ export class Overlay {
       if (held) this.#heights(pen, place, seen(drawing.pins), seen(drawing.ridges));
     }
     if (held && drawing.kind === 'drawn') {
-      this.#lines(pen, place, seen(drawing.rivers), 1.5, (pieces, path) => heads(pieces, 90, false, path));
+      // Beside rivers that meander about them these lines are no rivers themselves.
+      const dash = this.desk.bends() ? [7, 5] : [];
+      this.#lines(pen, place, seen(drawing.rivers), 1.5, (pieces, path) => heads(pieces, 90, false, path), dash);
     }
     this.#picture = { stamp, canvas };
     return canvas;
@@ -319,7 +322,7 @@ export class Overlay {
   }
 
   /** Lines of one kind at once; marks: (pieces, path) adds what stands along them. */
-  #lines(pen, place, objects, width, marks = null) {
+  #lines(pen, place, objects, width, marks = null, dash = []) {
     if (objects.length === 0) return;
     const [lines, beside] = [new Path2D(), new Path2D()];
     for (const { outline, closed } of objects) {
@@ -330,7 +333,9 @@ export class Overlay {
     for (const [style, more] of [[casing, 2.2], [ink[objects[0].kind], 0]]) {
       pen.strokeStyle = style;
       pen.lineWidth = width + more;
+      pen.setLineDash(dash);
       pen.stroke(lines);
+      pen.setLineDash([]);
       pen.lineWidth = 1.5 + more;
       pen.stroke(beside);
       if (objects[0].kind !== 'ridge') continue;

@@ -136,9 +136,9 @@ function drawingTools(desk, overlay) {
   ];
 }
 
-/** page: of page.js; ask(question): a promise of the reply; revision(): of the document; types: of rivers. */
-export function openSheet({ view, tools }, { ask, revision, types }) {
-  const desk = new Desk(view, ask, revision);
+/** page: of page.js; ask, revision, bends: as for Desk; types: of rivers. */
+export function openSheet({ view, tools }, { ask, revision, bends, types }) {
+  const desk = new Desk(view, { ask, revision, bends });
   const overlay = new Overlay(desk);
   const beside = new Inspector(desk, types);
   const all = drawingTools(desk, overlay);

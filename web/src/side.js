@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The studio's panel at the left: edits and their history, seed, source, cluster, pruning length and the recipe's form.
+// The studio's panel at the left: edits and their history, presets, seed, source, cluster, pruning
+// length and the recipe's form.
 import { ClusterPicture } from './cluster.js';
 import { button, byId, inputById, make } from './elements.js';
 import { isStandard, plain } from './fields.js';
+import { Presets } from './presets.js';
 import { RecipeForm } from './recipe.js';
 
 const root = document.documentElement;
@@ -60,6 +62,7 @@ export class Side {
     };
     this.cluster = new ClusterPicture(studio.keyOf(branch).choices, (arm) => this.quietly(this.act.set(branch, arm)));
     this.form = new RecipeForm(about.keys, this.act, ['seed', 'network.source', prune]);
+    this.presets = new Presets(about, (edit) => this.quietly(studio.ask({ do: 'edit', edit })));
     const view = byId('controls');
     view.hidden = true;
     this.element = make('aside', { id: 'recipe' });
@@ -67,6 +70,7 @@ export class Side {
     this.element.append(
       byId('title'),
       this.#toolbar(compare),
+      this.presets.element,
       make('div', { id: 'length' }, this.#lengthField()),
       this.#firstKeys(),
       view,
@@ -145,6 +149,7 @@ export class Side {
   /** Everything by the document. */
   show() {
     this.form.show(this.studio.document);
+    this.presets.show(this.studio.document);
     this.showFirst();
   }
 

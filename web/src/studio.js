@@ -145,7 +145,12 @@ export class Studio {
   #showDrawing() {
     if (!this.page || !this.drawing) return;
     const types = (this.keyOf('network.rosgen')?.choices ?? []).filter((type) => !type.startsWith('by_'));
-    this.sheet ??= openSheet(this.page, { ask: this.ask, revision: () => this.state.revision, types });
+    this.sheet ??= openSheet(this.page, {
+      ask: this.ask,
+      revision: () => this.state.revision,
+      bends: () => Number(this.document.values['network.meander']) > 0,
+      types,
+    });
     this.sheet.take(this.drawing);
   }
 

@@ -15,6 +15,7 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/recipe/make_input.hpp>
+#include <thalweg/recipe/presets.hpp>
 #include <thalweg/recipe/recipe_files.hpp>
 #include <thalweg/studio/drawing_files.hpp>
 #include <thalweg/studio/internal/journal.hpp>
@@ -35,14 +36,13 @@ constexpr std::int64_t largest_history = 1 << 30;
     throw IoError("studio.DocumentFolder", fmt::format("{}: {}", path, std::generic_category().message(errno)));
 }
 
-/// A recipe as the user's words or a folder of make give it.
-recipe::Recipe first_recipe(std::string const& input) {
-    if (input.empty()) {
-        return recipe::default_recipe();
-    }
+/// A recipe as the user's words or a folder of make give it, with the values of a preset.
+recipe::Recipe first_recipe(std::string const& input, std::string const& preset) {
     std::string const made = (fs::path(input) / recipe_name).string();
     std::error_code ignored;
-    return recipe::recipe_from(fs::is_regular_file(made, ignored) ? made : input);
+    recipe::Recipe recipe = input.empty() ? recipe::default_recipe()
+                                          : recipe::recipe_from(fs::is_regular_file(made, ignored) ? made : input);
+    return preset.empty() ? recipe : recipe::with_preset(std::move(recipe), preset);
 }
 
 /// Locks a document for this process. Throws BadInput where another has it.
@@ -99,9 +99,9 @@ std::string free_name(fs::path const& path) {
 
 } // namespace
 
-void new_document(std::string const& folder, std::string const& input, Run const& run) {
+void new_document(std::string const& folder, std::string const& input, std::string const& preset, Run const& run) {
     io::OutputFolder out(folder);
-    recipe::Recipe recipe = first_recipe(input);
+    recipe::Recipe recipe = first_recipe(input, preset);
     recipe::UserFiles const files(recipe, run);
     if (recipe.grid.cell_m == 0.0) { // to be chosen from rivers, which no recipe file can say, or from a DEM
         recipe = recipe::settled_recipe(recipe, run);
@@ -113,10 +113,10 @@ void new_document(std::string const& folder, std::string const& input, Run const
     out.commit();
 }
 
-void new_sheet(std::string const& folder) {
+void new_sheet(std::string const& folder, std::string const& preset) {
     Grid const grid{512, 512, 30.0, 500000.0, 5000000.0, "EPSG:32631"};
     io::OutputFolder out(folder);
-    Document const usual = document_of(recipe::write_recipe(recipe::default_recipe()));
+    Document const usual = document_of(recipe::write_recipe(first_recipe("", preset)));
     Edit const edit = empty_sheet(usual, grid,
                                   [&](std::string const& key, std::string const& name,
                                       std::function<void(std::string const& path)> const& write) {

@@ -19,14 +19,18 @@ struct Journal;
 /// \param folder a new one, or an empty one
 /// \param input a recipe, a folder that make wrote (its recipe is taken), or rivers or a DEM as for
 /// recipe::recipe_from(); "": recipe::default_recipe()
+/// \param preset of recipe::presets(), for keys that the input does not set; "": none
 /// \throws BadInput when the folder has content, and when an input cannot be read
-/// \throws BadParameter as document_of()
-void new_document(std::string const& folder, std::string const& input = {}, Run const& run = {});
+/// \throws BadParameter as document_of() and recipe::with_preset()
+void new_document(std::string const& folder, std::string const& input = {}, std::string const& preset = {},
+                  Run const& run = {});
 
-/// Makes a document to draw on, 512 x 512 cells of 30 m without rivers.
+/// Makes a document to draw on, 512 x 512 cells of 30 m without rivers. Those that are drawn meander.
 /// \param folder as for new_document()
+/// \param preset likewise
 /// \throws BadInput when the folder has content
-void new_sheet(std::string const& folder);
+/// \throws BadParameter as recipe::with_preset()
+void new_sheet(std::string const& folder, std::string const& preset = {});
 
 /// Whether a folder is that of a document.
 bool is_document(std::string const& folder);

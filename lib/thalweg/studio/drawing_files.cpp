@@ -20,6 +20,7 @@
 #include <thalweg/io/qgis/styles.hpp>
 #include <thalweg/io/raster/polygons.hpp>
 #include <thalweg/io/tables/table.hpp>
+#include <thalweg/recipe/condition.hpp>
 
 namespace thalweg::studio {
 namespace {
@@ -320,20 +321,26 @@ void unset(std::vector<Step>& steps, Recipe const& recipe, std::array<char const
 
 /// Steps that let drawn lines be all that decides where rivers run.
 void turn_into_lines(std::vector<Step>& steps, Recipe const& recipe) {
-    static constexpr std::array<char const*, 8> passing{"network.prune",
-                                                        "network.meander",
-                                                        "network.lines.snap",
-                                                        "network.lines.dem",
-                                                        "network.lines.divergences",
-                                                        "network.lines.filter",
-                                                        "network.lines.coastlines",
-                                                        "network.tokunaga.strokes"};
+    static constexpr std::array<char const*, 7> passing{
+        "network.prune",        "network.lines.snap",       "network.lines.dem",       "network.lines.divergences",
+        "network.lines.filter", "network.lines.coastlines", "network.tokunaga.strokes"};
     static constexpr std::array of_files{"file", "soft", "fixed", "ends"};
     unset(steps, recipe, passing);
     for (recipe::KeyValue const& key : recipe::key_values(recipe)) {
         if (key.path == "network.heights" && key.text && std::ranges::find(of_files, *key.text) != of_files.end()) {
             steps.emplace_back(UnsetKey{key.path});
         }
+    }
+}
+
+/// Steps that say whether rivers meander that become drawn lines. Those that were there, with the bends that they have,
+/// stay where they are. Strokes of a hand on an empty sheet have few bends: there rivers meander unless the recipe says
+/// how much.
+void set_meander(std::vector<Step>& steps, Recipe const& recipe, bool is_empty) {
+    if (!is_empty) {
+        unset(steps, recipe, std::array<char const*, 1>{"network.meander"});
+    } else if (recipe::in_equilibrium(recipe) && !recipe.network->meander) {
+        steps.emplace_back(SetKey{"network.meander", "1"});
     }
 }
 
@@ -364,9 +371,12 @@ void set_grid(std::vector<Step>& steps, Grid const& grid) {
     steps.emplace_back(SetKey{"grid.crs", grid.crs});
 }
 
-void set_rivers(std::vector<Step>& steps, Document const& document, Drawing const& drawing, PutInput const& put) {
+/// was_empty: no rivers were there.
+void set_rivers(std::vector<Step>& steps, Document const& document, bool was_empty, Drawing const& drawing,
+                PutInput const& put) {
     if (!is_drawn(document.recipe)) {
         turn_into_lines(steps, document.recipe);
+        set_meander(steps, document.recipe, was_empty);
     }
     forget_layer(steps, document.recipe);
     if (!grid_of(document.recipe)) {
@@ -540,7 +550,7 @@ Edit edit_between(Document const& document, Drawing const& before, DrawResult co
     Drawing const& now = after.drawing;
     Edit edit{after.name, {}};
     if (now.rivers != before.rivers || now.coasts != before.coasts || now.has_side_streams != before.has_side_streams) {
-        set_rivers(edit.steps, document, now, put);
+        set_rivers(edit.steps, document, before.rivers.empty(), now, put);
     }
     if (now.lakes != before.lakes) {
         set_lakes(edit.steps, document, now, put);
@@ -562,7 +572,7 @@ Edit empty_sheet(Document const& document, Grid const& grid, PutInput const& put
     Edit edit{"an empty sheet", {}};
     Drawing empty;
     empty.grid = grid;
-    set_rivers(edit.steps, document, empty, put);
+    set_rivers(edit.steps, document, true, empty, put);
     set_lakes(edit.steps, document, empty, put);
     set_masks(edit.steps, document, empty, put);
     set_pins(edit.steps, document, empty, put);

@@ -42,7 +42,8 @@ using PutInput = std::function<TakeInput(std::string const& key, std::string con
                                          std::function<void(std::string const& path)> const& write)>;
 
 /// The edit that turns one drawing of a document into another. Rivers that were not drawn become drawn lines, on the
-/// grid that they have: what had a say in how they came about goes out of the recipe.
+/// grid that they have: what had a say in how they came about goes out of the recipe. Where there were none, terrain in
+/// equilibrium gets network.meander = 1, unless the recipe sets it.
 /// \param before what read_drawing() or drawing_of() gives for the document
 /// \param put called for each file that changed
 /// \return steps; none where nothing changed

@@ -17,6 +17,7 @@
 #include <thalweg/core/bounded_json.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/recipe/presets.hpp>
 #include <thalweg/recipe/recipe.hpp>
 #include <thalweg/report/report.hpp>
 
@@ -298,7 +299,18 @@ std::string page_parameters(std::string const& folder) {
                         {"used_by", key.used_by},
                         {"is_file", key.is_file}});
     }
-    return text_of({{"version", report::version()}, {"folder", folder}, {"keys", std::move(keys)}});
+    ordered_json presets = ordered_json::array();
+    for (recipe::Preset const& preset : recipe::presets()) {
+        presets.push_back(
+            {{"name", preset.name},
+             {"meaning", preset.meaning},
+             {"not_meant", preset.not_meant},
+             {"recipe", recipe::write_recipe(recipe::with_preset(recipe::default_recipe(), preset.name))}});
+    }
+    return text_of({{"version", report::version()},
+                    {"folder", folder},
+                    {"keys", std::move(keys)},
+                    {"presets", std::move(presets)}});
 }
 
 std::string document_message(Document const& document, History const& history, std::string const& command) {

@@ -533,12 +533,18 @@ private:
     std::jthread writing_; ///< the last member: it uses all others
 };
 
-std::string document_for(std::string const& input, std::string const& folder, bool is_blank, Run const& run) {
+std::string document_for(std::string const& input, std::string const& folder, bool is_blank, std::string const& preset,
+                         Run const& run) {
     constexpr char const* usual = "studio";
     refuse_if<BadParameter>(is_blank && !input.empty(), "studio.document_for",
                             "studio: an empty sheet begins with nothing: leave out {}, or --blank", input);
+    bool const is_new = is_blank || !preset.empty();
+    refuse_if<BadParameter>(!preset.empty() && !input.empty() && is_document(input), "studio.document_for",
+                            "studio: a preset begins a document, and {} is one: leave out --preset, and choose it on "
+                            "the page",
+                            input);
     std::string const meant = !input.empty() ? input : folder.empty() ? usual : folder;
-    if (!is_blank && is_document(meant)) {
+    if (!is_new && is_document(meant)) {
         return meant;
     }
     std::string fresh = folder.empty() ? usual : folder;
@@ -546,7 +552,7 @@ std::string document_for(std::string const& input, std::string const& folder, bo
     for (int number = 2; folder.empty() && fs::exists(fresh, unknown) && !fs::is_empty(fresh, unknown); ++number) {
         fresh = fmt::format("{}-{}", usual, number);
     }
-    is_blank ? new_sheet(fresh) : new_document(fresh, input, run);
+    is_blank ? new_sheet(fresh, preset) : new_document(fresh, input, preset, run);
     return fresh;
 }
 

@@ -24,10 +24,11 @@ struct StudioParams {
 /// a document, else recipe::default_recipe()
 /// \param folder where a new document begins; "": ./studio, ./studio-2, … whichever is free
 /// \param is_blank a new document is an empty sheet, and no input is given
+/// \param preset a new document has it, as for new_document(); "": none
 /// \return the folder of a document, which is there now
 /// \throws Error as new_document()
 std::string document_for(std::string const& input, std::string const& folder, bool is_blank = false,
-                         Run const& run = {});
+                         std::string const& preset = {}, Run const& run = {});
 
 class StudioSession;
 

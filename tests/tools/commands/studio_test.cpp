@@ -70,6 +70,9 @@ TEST(StudioCommand, RefusesNonsenseInWords) {
     EXPECT_EQ(thalweg_run("studio words.txt --no-browser", place.path()).code, 2);
     EXPECT_EQ(thalweg_run("studio --port 70000 --no-browser", place.path()).code, 2);
     EXPECT_EQ(thalweg_run("studio --port x --no-browser", place.path()).code, 2);
+    Outcome const unknown = thalweg_run("studio --preset hils --no-browser", place.path());
+    EXPECT_EQ(unknown.code, 2);
+    EXPECT_TRUE(test::has(unknown.err, "hills", "dissected-plateau")) << unknown.err;
     StartedStudio studio({"land.toml", "-o", "doc", "-q"}, place.path());
     Outcome const taken =
         thalweg_run("studio land.toml -o other --no-browser --port " + std::to_string(studio.port()), place.path());
