@@ -67,6 +67,11 @@ public:
         write("border.geojson", geojson(line("[500010,5003000],[500010,5000010]")));
         write("double.geojson", geojson(line(trunk + ",[502100,5000010]") + "," +
                                         line("[501010,5003000],[501710,5002200],[502010,5001500],[502110,5000010]")));
+        std::string fine;
+        for (int y = 3000; y >= 10; y -= 46) { // pieces of 46 m
+            fine += fmt::format("[501500,{}],", 5000000 + y);
+        }
+        write("fine.geojson", geojson(line(fine + "[501500,5000010]")));
         write("lakes.geojson",
               geojson(polygon("[501850,5001200],[502250,5001200],[502250,5001700],[501850,5001700],[501850,5001200]")));
         write("dry.geojson",
@@ -168,6 +173,19 @@ TEST(LandInEquilibrium, HeightsOfRiversAreKeptOrUpperBounds) {
     EXPECT_NEAR(ends.terrain.rivers.network.node_z[0], source, 0.1);
     EXPECT_LE(soft.terrain.rivers.network.node_z[0], source + 0.1);
     EXPECT_EQ(fixed.terrain.ground.equilibrium()->max_lowered_m, 0.0);
+}
+
+TEST(LandInEquilibrium, GeneralisedRiversAreNoted) {
+    Files const files;
+    auto const notes = [&](std::string const& network, std::string const& file) {
+        MakeResult const t =
+            made(lines + network + "[network.lines]\npath = \"" + file + "\"\n" + equilibrium, files.folder());
+        return count(findings_of(t), "few_vertices");
+    };
+    EXPECT_EQ(notes("", "rivers.geojson"), 1);
+    EXPECT_EQ(notes("meander = 0\n", "rivers.geojson"), 0) << "who said so knows";
+    EXPECT_EQ(notes("meander = 1\n", "rivers.geojson"), 0);
+    EXPECT_EQ(notes("", "fine.geojson"), 0);
 }
 
 TEST(LandInEquilibrium, LakesKeepFromTheSea) {

@@ -82,6 +82,10 @@ inline constexpr auto finding_rows = [] {
          "A canal or ditch is part of the network because rivers reach their outlet by it only.", ""},
         {"cut", note, verbose, "m", "The part of a line that another one covers is left out.", ""},
         {"duplicate", note, verbose, "m", "A line that lies on another one is left out.", ""},
+        {"few_vertices", note, always, "m",
+         "Half of the length of given lines is straight pieces of more than ten cells: generalised rivers, which show "
+         "in the terrain as they are.",
+         "network.meander = 1 bends them; they leave their lines."},
         {"height", note, verbose, "m", "Lines have different heights where they meet; the node gets one of them.", ""},
         {"lake_crossed", note, verbose, "m",
          "Rivers that end at the shore of a lake run on through it, to its outflow or to the river in it.", ""},
@@ -131,7 +135,7 @@ inline constexpr auto finding_rows = [] {
          "Set network.prune to a smaller length."},
         // Lakes and rivers in equilibrium with terrain.
         {"lake_cut", note, verbose, "cells",
-         "Cells are taken off a lake at the grid's edge, beside another lake or a passing river.", ""},
+         "Cells are taken off a lake at the grid's edge, beside the sea, another lake or a passing river.", ""},
         {"lake_left_out", note, verbose, "cells", "A lake is left out: no river runs through it, or it covers no cell.",
          "Draw a river through it, or make grid.cell smaller."},
         {"lake_level", note, verbose, "m", "A lake has another level than the file sets.", ""},

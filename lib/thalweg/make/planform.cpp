@@ -4,6 +4,7 @@
 #include <thalweg/make/internal/planform.hpp>
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -65,6 +66,38 @@ BentRivers bent(recipe::Recipe const& recipe, StreamNetwork network, RiverFile f
     follows.lengthened = before_m > 0.0 ? follows.sources.length_m(meandered.network) / before_m : 1.0;
     follows.imported = meandered.network;
     return {std::move(meandered.network), std::move(follows)};
+}
+
+/// A note on generalised lines that stay as they are, where nobody said how much they shall bend.
+std::vector<Finding> few_vertices(recipe::Recipe const& recipe, StreamNetwork const& network, double cell_m) {
+    if (!recipe::from_lines(recipe) || recipe::stage::meander.runs(recipe) ||
+        recipe.set_at.contains("network.meander")) {
+        return {};
+    }
+    std::vector<double> pieces;
+    for (Arc const& arc : network.arcs()) {
+        for (std::size_t i = 1; i < arc.line.size(); ++i) {
+            pieces.push_back(distance(arc.line[i - 1], arc.line[i]));
+        }
+    }
+    std::ranges::sort(pieces, std::greater<>());
+    double const half = 0.5 * std::accumulate(pieces.begin(), pieces.end(), 0.0);
+    double longest = 0.0; // together
+    double piece = 0.0;
+    for (std::size_t i = 0; i < pieces.size() && longest < half; ++i) {
+        piece = pieces[i];
+        longest += piece;
+    }
+    constexpr double cells = 10.0;
+    if (!(piece > cells * cell_m)) {
+        return {};
+    }
+    return {{.kind = "few_vertices",
+             .amount = piece,
+             .text = fmt::format("the lines have few vertices: half of their length is straight pieces of {:.4g} m or "
+                                 "more, over cells of {:.6g} m",
+                                 piece, cell_m),
+             .key = "network.meander"}};
 }
 
 bool is_extension(Finding const& note) {
@@ -265,6 +298,9 @@ DrawnRivers drawn(RiversInput const& in, Run const& run) {
     refuse_if<BadParameter>(recipe::stage::meander.runs(in.recipe) && source.file_heights, "make.make_planform",
                             "network.meander cannot bend rivers whose heights come from their "
                             "file; set network.heights = \"graded\" or leave meander out");
+    if (!source.file_heights) { // these cannot bend
+        stage_log.find(few_vertices(in.recipe, carried.network, source.grid.cell_m));
+    }
     BentRivers rivers =
         bent(in.recipe, std::move(carried.network), std::move(kept.file), source.grid, carried.land, stage_log, run);
     TypedNetwork typed = type_rivers(std::move(rivers.network), wanted, run);
