@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <vector>
@@ -13,7 +15,9 @@
 #include <support.hpp>
 
 #include <thalweg/core/cells.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/vec.hpp>
 #include <thalweg/flow/route.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 
@@ -71,6 +75,91 @@ Raster<float> walled(double tangent) {
         return 4000.0 + (x < 0.0 ? 0.2 * x : -face) + ripple;
     });
 }
+
+/// The place of a share among numbers counted by whole metres.
+double percentile_of(std::vector<double> drops, double share) {
+    for (double& drop : drops) {
+        drop = std::floor(drop);
+    }
+    std::ranges::sort(drops);
+    double const wanted = share * static_cast<double>(drops.size());
+    for (std::size_t before = 0; before < drops.size();) {
+        auto const here = static_cast<std::size_t>(std::ranges::count(drops, drops[before]));
+        if (static_cast<double>(before + here) >= wanted) {
+            return drops[before] + (wanted - static_cast<double>(before)) / static_cast<double>(here);
+        }
+        before += here;
+    }
+    return std::numeric_limits<double>::quiet_NaN();
+}
+
+/// What rivers divide, cell by cell from the definitions.
+struct Divided {
+    Raster<float> const& dem;
+    flow::FlowField const& drainage;
+    std::vector<std::int64_t> const& rivers;
+
+    bool drains_in(std::int64_t cell) const {
+        for (; cell >= 0; cell = drainage.receiver(cell)) {
+            if (std::ranges::find(rivers, cell) != rivers.end()) {
+                return true;
+            }
+        }
+        return false;
+    }
+    double drop(Cell at, double radius) const {
+        auto const here = static_cast<double>(dem[at]);
+        double most = 0.0;
+        for (int k = 0; k < 16; ++k) {
+            Cell const there{at.col + std::llround(radius * std::cos(22.5 * k * deg)),
+                             at.row + std::llround(radius * std::sin(22.5 * k * deg))};
+            bool const counts = dem.grid().contains(there) && !std::isnan(dem[there]);
+            most = counts ? std::max(most, here - static_cast<double>(dem[there])) : most;
+        }
+        return most;
+    }
+    Variety measured(VarietyParams const& params) const {
+        Grid const& grid = dem.grid();
+        std::vector<std::int64_t> land;
+        std::vector<bool> in(static_cast<std::size_t>(dem.cells()));
+        for (std::int64_t i = 0; i < dem.cells(); ++i) {
+            if (!std::isnan(dem[i])) {
+                land.push_back(i);
+                in[i] = drains_in(i);
+            }
+        }
+        auto const squared = [&](std::int64_t a, std::int64_t b) {
+            Vec2 const apart{static_cast<double>(grid.at(a).col - grid.at(b).col),
+                             static_cast<double>(grid.at(a).row - grid.at(b).row)};
+            return dot(apart, apart);
+        };
+        auto const is_divide = [&](std::int64_t i) {
+            return std::ranges::any_of(land, [&](std::int64_t k) { return in[k] != in[i] && squared(i, k) <= 2.0; });
+        };
+        double const radius = params.wall_m / grid.cell_m;
+        double const far = params.divide_m / grid.cell_m;
+        std::vector<std::int64_t> divide;
+        std::ranges::copy_if(land, std::back_inserter(divide), is_divide);
+        std::vector<double> along;
+        std::vector<double> everywhere;
+        std::vector<double> elsewhere;
+        for (std::int64_t const i : divide) {
+            along.push_back(drop(grid.at(i), radius));
+        }
+        for (std::int64_t const i : land) { // cells are as far apart as a tenth of the distance
+            everywhere.push_back(drop(grid.at(i), radius));
+            if (std::ranges::none_of(divide, [&](std::int64_t k) { return squared(i, k) <= far * far; })) {
+                elsewhere.push_back(everywhere.back());
+            }
+        }
+        Variety found;
+        found.outside_share = static_cast<double>(std::ranges::count_if(land, [&](auto i) { return !in[i]; })) /
+                              static_cast<double>(land.size());
+        found.steepest_drop = percentile_of(everywhere, 0.999) / percentile_of(everywhere, 0.9);
+        found.wall = percentile_of(along, 0.99) / percentile_of(elsewhere, 0.99);
+        return found;
+    }
+};
 
 } // namespace
 
@@ -168,6 +257,37 @@ TEST(Variety, LandThatDrainsPastTheRivers) {
     Raster<float> const dem = trench(1.0);
     EXPECT_EQ(of(dem, column(dem.grid(), 50)).outside_share, 0.0);
     EXPECT_NEAR(of(dem, {dem.grid().index({50, 0})}).outside_share, 1.0, 0.03);
+}
+
+TEST(Variety, DivideAndDropsAsDefined) {
+    ASSERT_TRUE(rc::check("the same of every cell", [] {
+        auto const seed = *rc::gen::arbitrary<std::uint64_t>();
+        Raster<float> dem = test::raster_of(grid_of(44, 41, 100.0), [&](Cell c) {
+            double const noise = unit(random_word(seed, static_cast<std::uint64_t>(44 * c.row + c.col)));
+            return 500.0 + 20.0 * static_cast<double>(c.row) + 15.0 * std::abs(static_cast<double>(c.col - 15)) +
+                   100.0 * noise;
+        });
+        for (std::int64_t const hole :
+             *rc::gen::container<std::vector<std::int64_t>>(rc::gen::inRange<std::int64_t>(0, dem.cells()))) {
+            dem[hole] = std::numeric_limits<float>::quiet_NaN();
+        }
+        flow::FlowField const drainage = flow::route(dem);
+        std::vector<std::int64_t> rivers;
+        for (std::int64_t i = 0; i < dem.cells(); ++i) {
+            if (!std::isnan(dem[i]) && dem.grid().at(i).row < 30 && drainage.area_cells[i] > 60) {
+                rivers.push_back(i);
+            }
+        }
+        RC_PRE(!rivers.empty());
+        VarietyParams const params{.wall_m = 1000.0, .divide_m = 500.0, .least_share = 0.0};
+        Variety const found = variety(dem, drainage, rivers, params);
+        Variety const slow = Divided{dem, drainage, rivers}.measured(params);
+        RC_CLASSIFY(!std::isnan(found.wall), "has a wall");
+        RC_ASSERT(found.outside_share == slow.outside_share);
+        RC_ASSERT(found.steepest_drop == slow.steepest_drop);
+        RC_ASSERT(found.wall == slow.wall ||
+                  (std::isnan(found.wall) && !(slow.wall >= 0.0 && std::isfinite(slow.wall))));
+    }));
 }
 
 // The values that natural ranges are made of; tests/clients/check_relief.py measures them by numpy.

@@ -77,17 +77,11 @@ std::vector<Vec2> stem_above(Raster<float> const& dem, flow::FlowField const& dr
                              ChiParams const& params) {
     Grid const& grid = dem.grid();
     std::vector<Vec2> stem{{0.0, static_cast<double>(dem[mouth])}};
-    Cell at = grid.at(mouth);
-    for (int k = main_donor(drainage, at); k >= 0; k = main_donor(drainage, at)) {
-        auto const way = static_cast<std::size_t>(k);
-        at = {at.col + d8_steps[way].col, at.row + d8_steps[way].row};
-        if (drainage.area_cells[at] < params.support_cells) {
-            break;
-        }
+    each_cell_above(drainage, mouth, params.support_cells, [&](Cell at, std::size_t way) {
         double const area_m2 = static_cast<double>(drainage.area_cells[at]) * grid.cell_m * grid.cell_m;
         double const step = grid.cell_m / d8_per_length[way] * portable::pow(area_m2, -params.theta);
         stem.push_back({stem.back().x + step, static_cast<double>(dem[at])});
-    }
+    });
     return stem;
 }
 

@@ -17,6 +17,7 @@
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/measure/relief/internal/horn.hpp>
+#include <thalweg/measure/relief/internal/place_in_classes.hpp>
 #include <thalweg/measure/relief/internal/some_slopes.hpp>
 
 namespace thalweg::measure {
@@ -86,18 +87,9 @@ void add_row(Raster<float> const& dem, std::int64_t row, Sector const& wide, Sec
     }
 }
 
-/// The slope below which a share of the cells lies, with cells spread evenly within a class.
+/// The slope below which a share of the cells lies.
 double percentile(std::vector<std::int64_t> const& counts, std::int64_t cells, double share) {
-    double const wanted = share * static_cast<double>(cells);
-    double before = 0.0;
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-        auto const here = static_cast<double>(counts[i]);
-        if (here > 0.0 && before + here >= wanted) {
-            return (static_cast<double>(i) + (wanted - before) / here) / static_cast<double>(classes_a_degree);
-        }
-        before += here;
-    }
-    return std::numeric_limits<double>::quiet_NaN();
+    return place_in_classes(counts, share * static_cast<double>(cells)) / static_cast<double>(classes_a_degree);
 }
 
 /// Standard deviation from the means of values and of their squares.

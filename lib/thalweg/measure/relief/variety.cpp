@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
+#include <utility>
 #include <vector>
 
 #include <thalweg/core/cells.hpp>
@@ -16,6 +18,7 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/core/same_grid.hpp>
 #include <thalweg/measure/relief/internal/main_stems.hpp>
+#include <thalweg/measure/relief/internal/place_in_classes.hpp>
 #include <thalweg/measure/relief/internal/some_slopes.hpp>
 
 namespace thalweg::measure {
@@ -28,7 +31,6 @@ constexpr std::int64_t least_windows = 4;
 constexpr std::uint8_t river = 1;
 constexpr std::uint8_t inside = 2;  ///< drains to a river cell, or is one
 constexpr std::uint8_t outside = 4; ///< drains past all
-constexpr std::uint8_t divide = 8;  ///< has neighbours of both, or is one of them
 
 void check(VarietyParams const& params, Raster<float> const& dem, flow::FlowField const& drainage,
            std::span<std::int64_t const> rivers) {
@@ -55,14 +57,25 @@ std::int64_t support_of(Grid const& grid, double stream_m2) {
     return std::max<std::int64_t>(static_cast<std::int64_t>(std::ceil(stream_m2 / (grid.cell_m * grid.cell_m))), 1);
 }
 
-Mask river_cells(Raster<float> const& dem, flow::FlowField const& drainage, std::span<std::int64_t const> rivers,
-                 std::int64_t support_cells) {
-    Mask found(dem.grid());
+/// Some cells of a grid, in ascending order.
+using Cells = std::vector<std::int64_t>;
+
+/// Marks the river cells.
+Cells mark_rivers(Raster<float> const& dem, flow::FlowField const& drainage, std::span<std::int64_t const> rivers,
+                  std::int64_t support_cells, Mask& is) {
+    Cells found;
     for (std::int64_t const cell : rivers) {
-        found[cell] = std::isnan(dem[cell]) ? 0 : river;
+        if (!std::isnan(dem[cell]) && is[cell] == 0) {
+            is[cell] = river;
+            found.push_back(cell);
+        }
     }
+    std::ranges::sort(found);
     for (std::int64_t i = 0; rivers.empty() && i < dem.cells(); ++i) {
-        found[i] = drainage.area_cells[i] >= support_cells ? river : 0;
+        if (drainage.area_cells[i] >= support_cells) {
+            is[i] = river;
+            found.push_back(i);
+        }
     }
     return found;
 }
@@ -78,25 +91,23 @@ struct WindowRow {
 /// Which cells of a row lie within a distance of some: from spans that start and end, added up along the row.
 class Near {
 public:
-    /// \param bit of the cells
-    Near(Mask const& is, std::uint8_t bit, double away_m)
-        : is_(is), radius_(static_cast<std::int64_t>(std::floor(away_m / is.grid().cell_m))),
-          squared_(away_m / is.grid().cell_m * (away_m / is.grid().cell_m)),
-          by_row_(static_cast<std::size_t>(is.height())) {
-        for (std::int64_t r = 0; r < is.height(); ++r) {
-            for (std::int64_t c = 0; c < is.width(); ++c) {
-                if ((is[Cell{c, r}] & bit) != 0) {
-                    by_row_[r].push_back(c);
-                }
-            }
+    Near(Grid const& grid, Cells const& cells, double away_m)
+        : grid_(grid), radius_(static_cast<std::int64_t>(std::floor(away_m / grid.cell_m))),
+          squared_(away_m / grid.cell_m * (away_m / grid.cell_m)), by_row_(static_cast<std::size_t>(grid.height)) {
+        for (std::int64_t const cell : cells) {
+            Cell const at = grid.at(cell);
+            by_row_[at.row].push_back(at.col);
         }
     }
 
+    /// Columns of the cells in a row.
+    std::vector<std::int64_t> const& in_row(std::int64_t row) const { return by_row_[row]; }
+
     /// \param near 1 for each cell of the row that is near; as many as the grid is wide
     void row(std::int64_t row, std::vector<std::int64_t>& change, std::vector<std::uint8_t>& near) const {
-        std::int64_t const width = is_.width();
+        std::int64_t const width = grid_.width;
         change.assign(static_cast<std::size_t>(width) + 1, 0);
-        for (std::int64_t r = std::max<std::int64_t>(row - radius_, 0); r <= std::min(row + radius_, is_.height() - 1);
+        for (std::int64_t r = std::max<std::int64_t>(row - radius_, 0); r <= std::min(row + radius_, grid_.height - 1);
              ++r) {
             auto const apart = static_cast<double>(r - row);
             auto const half = static_cast<std::int64_t>(std::floor(std::sqrt(squared_ - apart * apart)));
@@ -114,7 +125,7 @@ public:
     }
 
 private:
-    Mask const& is_;
+    Grid const& grid_;
     std::int64_t radius_;
     double squared_; ///< [cells2]
     std::vector<std::vector<std::int64_t>> by_row_;
@@ -136,29 +147,34 @@ WindowRow window_row(Raster<float> const& dem, Near const& rivers, std::int64_t 
         for (std::size_t from = 1; from < beyond; from += SomeSlopes::at_once) {
             std::size_t const count = std::min(SomeSlopes::at_once, beyond - from);
             some.compute(dem, row, from, count);
-            for (std::size_t i = 0; i < count; ++i) {
-                if (std::isnan(some.tangent[i])) {
-                    continue;
-                }
-                double const degrees = some.angle[i] * (180.0 / portable::pi);
+            for (std::size_t i = 0; i < count;) {
                 std::size_t const window = (from + i) / static_cast<std::size_t>(side);
-                found.degrees[window].add(degrees);
-                ++found.cells[window];
-                if (degrees < gentle_deg) {
-                    ++found.gentle;
-                    found.gentle_away += near[from + i] == 0 ? 1 : 0;
+                std::size_t const end = std::min(count, (window + 1) * static_cast<std::size_t>(side) - from);
+                CompensatedSum sum = found.degrees[window];
+                for (; i < end; ++i) {
+                    if (std::isnan(some.tangent[i])) {
+                        continue;
+                    }
+                    double const degrees = some.angle[i] * (180.0 / portable::pi);
+                    sum.add(degrees);
+                    ++found.cells[window];
+                    if (degrees < gentle_deg) {
+                        ++found.gentle;
+                        found.gentle_away += near[from + i] == 0 ? 1 : 0;
+                    }
                 }
+                found.degrees[window] = sum;
             }
         }
     }
     return found;
 }
 
-void measure_windows(Raster<float> const& dem, Mask const& is, VarietyParams const& params, Run const& run,
+void measure_windows(Raster<float> const& dem, Cells const& river_cells, VarietyParams const& params, Run const& run,
                      Variety& found) {
     Grid const& grid = dem.grid();
     std::int64_t const side = std::max<std::int64_t>(std::llround(params.window_m / grid.cell_m), 1);
-    Near const rivers(is, river, params.away_m);
+    Near const rivers(grid, river_cells, params.away_m);
     std::vector<WindowRow> rows(static_cast<std::size_t>((grid.height + side - 1) / side));
     parallel_ranges(run, std::ssize(rows), 1, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t w = begin; w < end; ++w) {
@@ -213,16 +229,10 @@ struct Profile {
 Profile profile_above(Raster<float> const& dem, flow::FlowField const& drainage, std::int64_t mouth,
                       std::int64_t support_cells) {
     Profile found{{0.0}, {static_cast<double>(dem[mouth])}};
-    Cell at = dem.grid().at(mouth);
-    for (int k = main_donor(drainage, at); k >= 0; k = main_donor(drainage, at)) {
-        auto const way = static_cast<std::size_t>(k);
-        at = {at.col + d8_steps[way].col, at.row + d8_steps[way].row};
-        if (drainage.area_cells[at] < support_cells) {
-            break;
-        }
+    each_cell_above(drainage, mouth, support_cells, [&](Cell at, std::size_t way) {
         found.way_m.push_back(found.way_m.back() + dem.grid().cell_m / d8_per_length[way]);
         found.z.push_back(static_cast<double>(dem[at]));
-    }
+    });
     return found;
 }
 
@@ -258,32 +268,36 @@ double lower_bank(Raster<float> const& dem, Mask const& is, Cell at) {
     return lowest;
 }
 
-void measure_banks(Raster<float> const& dem, Mask const& is, double rise_m, Variety& found) {
-    for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        if ((is[i] & river) != 0) {
-            ++found.river_cells;
-            double const bank = lower_bank(dem, is, dem.grid().at(i));
-            found.canal_cells += std::isfinite(bank) && bank - static_cast<double>(dem[i]) > rise_m ? 1 : 0;
-        }
+void measure_banks(Raster<float> const& dem, Mask const& is, Cells const& river_cells, double rise_m, Variety& found) {
+    found.river_cells = std::ssize(river_cells);
+    for (std::int64_t const i : river_cells) {
+        double const bank = lower_bank(dem, is, dem.grid().at(i));
+        found.canal_cells += std::isfinite(bank) && bank - static_cast<double>(dem[i]) > rise_m ? 1 : 0;
     }
 }
 
 /// Marks what drains to river cells and what drains past all: each flow path is followed to a cell that is known.
 void mark_sides(Raster<float> const& dem, flow::FlowField const& drainage, Run const& run, Mask& is) {
-    std::vector<std::int64_t> path;
+    auto const offsets = d8_offsets(dem.grid());
+    Cells path;
     for (std::int64_t start = 0; start < is.cells(); ++start) {
         if (start % cells_between_checks == 0) {
             run.check();
         }
-        std::uint8_t side = 0;
-        std::int64_t at = start;
-        for (path.clear(); side == 0; at = drainage.receiver(at)) {
-            if (at < 0 || std::isnan(dem[at])) {
-                side = outside;
-            } else if (is[at] != 0) {
+        if (is[start] != 0 || std::isnan(dem[start])) {
+            continue;
+        }
+        path.clear();
+        std::uint8_t side = outside;
+        for (std::int64_t at = start;;
+             at += offsets[index_of(drainage.direction[at])]) { // never to one without a height
+            if (is[at] != 0) {
                 side = (is[at] & outside) != 0 ? outside : inside;
-            } else {
-                path.push_back(at);
+                break;
+            }
+            path.push_back(at);
+            if (!goes_on(drainage.direction[at])) {
+                break;
             }
         }
         for (std::int64_t const cell : path) {
@@ -292,33 +306,49 @@ void mark_sides(Raster<float> const& dem, flow::FlowField const& drainage, Run c
     }
 }
 
-/// Marks the cells that drain to a river beside one that drains past all, and those.
-void mark_divide(Mask& is) {
-    std::int64_t const width = is.width();
-    auto const side = [](std::uint8_t bits) {
-        return static_cast<std::uint8_t>((bits & river) != 0 ? inside : bits & (inside | outside));
-    };
-    auto const compare = [&](std::int64_t i, std::int64_t other) {
-        if ((side(is[i]) | side(is[other])) == (inside | outside)) {
-            is[i] = static_cast<std::uint8_t>(is[i] | divide);
-            is[other] = static_cast<std::uint8_t>(is[other] | divide);
+/// The sides of the cells of some rows, and of those cells and their neighbours in the row.
+struct SidesOfRow {
+    std::vector<std::uint8_t> own;
+    std::vector<std::uint8_t> around;
+
+    /// \param bits of the row's cells; empty: of no side
+    void set(std::span<std::uint8_t const> bits, std::size_t width) {
+        own.assign(width + 2, 0); // without sides beyond both ends
+        around.resize(width);
+        for (std::size_t c = 0; c < bits.size(); ++c) {
+            own[c + 1] = static_cast<std::uint8_t>((bits[c] & river) != 0 ? inside : bits[c] & (inside | outside));
         }
+        for (std::size_t c = 0; c < width; ++c) {
+            around[c] = static_cast<std::uint8_t>(own[c] | own[c + 1] | own[c + 2]);
+        }
+    }
+};
+
+/// The cells that drain to a river beside one that drains past all, and those.
+Cells divide_of(Mask const& is) {
+    auto const width = static_cast<std::size_t>(is.width());
+    auto const row_of = [&](std::int64_t row) {
+        return row < is.height() ? std::span<std::uint8_t const>(is.row(row)) : std::span<std::uint8_t const>();
     };
+    Cells found;
+    std::array<SidesOfRow, 3> rows; // above, here and below by turns
+    rows[2].set({}, width);
+    rows[0].set(row_of(0), width);
+    std::vector<std::uint8_t> at_divide(width);
     for (std::int64_t row = 0; row < is.height(); ++row) {
-        for (std::int64_t col = 0; col < width; ++col) {
-            std::int64_t const i = row * width + col;
-            if (col + 1 < width) {
-                compare(i, i + 1);
-            }
-            if (row + 1 < is.height()) {
-                compare(i, i + width);
-            }
-            if (row + 1 < is.height() && col + 1 < width) {
-                compare(i, i + width + 1);
-                compare(i + 1, i + width);
+        SidesOfRow const& here = rows[row % 3];
+        rows[(row + 1) % 3].set(row_of(row + 1), width);
+        for (std::size_t c = 0; c < width; ++c) {
+            auto const all = static_cast<std::uint8_t>(rows[0].around[c] | rows[1].around[c] | rows[2].around[c]);
+            at_divide[c] = all == (inside | outside) && here.own[c + 1] != 0 ? 1 : 0;
+        }
+        for (std::size_t c = 0; c < width; ++c) {
+            if (at_divide[c] != 0) {
+                found.push_back(row * is.width() + static_cast<std::int64_t>(c));
             }
         }
     }
+    return found;
 }
 
 /// Places at about the same distance in sixteen directions.
@@ -348,18 +378,7 @@ struct Drops {
         }
         cells += other.cells;
     }
-    double percentile(double share) const {
-        double const wanted = share * static_cast<double>(cells);
-        double before = 0.0;
-        for (std::size_t i = 0; i < classes; ++i) {
-            auto const here = static_cast<double>(counts[i]);
-            if (here > 0.0 && before + here >= wanted) {
-                return static_cast<double>(i) + (wanted - before) / here;
-            }
-            before += here;
-        }
-        return std::numeric_limits<double>::quiet_NaN();
-    }
+    double percentile(double share) const { return place_in_classes(counts, share * static_cast<double>(cells)); }
 };
 
 /// The drops over a distance.
@@ -375,23 +394,43 @@ struct AllDrops {
     }
 };
 
-double drop_at(Raster<float> const& dem, Cell at, std::array<Cell, 16> const& around) {
-    auto lowest = static_cast<double>(dem[at]);
-    for (Cell const step : around) {
-        Cell const there{at.col + step.col, at.row + step.row};
-        if (dem.grid().contains(there) && static_cast<double>(dem[there]) < lowest) {
-            lowest = static_cast<double>(dem[there]);
+/// Where the lowest of the places around a cell lies under it.
+class DropBelow {
+public:
+    DropBelow(Raster<float> const& dem, double radius_cells) : dem_(dem), around_(circle(radius_cells)) {
+        for (std::size_t k = 0; k < around_.size(); ++k) {
+            offsets_[k] = around_[k].row * dem.width() + around_[k].col;
+            reach_ = std::max({reach_, std::abs(around_[k].col), std::abs(around_[k].row)});
         }
     }
-    return static_cast<double>(dem[at]) - lowest;
-}
 
-AllDrops drops_of(Raster<float> const& dem, Mask const& is, VarietyParams const& params, Run const& run) {
+    double at(Cell at) const {
+        std::int64_t const i = dem_.grid().index(at);
+        bool const is_inner =
+            at.col >= reach_ && at.row >= reach_ && at.col + reach_ < dem_.width() && at.row + reach_ < dem_.height();
+        float lowest = dem_[i];
+        for (std::size_t k = 0; k < around_.size(); ++k) {
+            if (is_inner || dem_.grid().contains({at.col + around_[k].col, at.row + around_[k].row})) {
+                float const z = dem_[i + offsets_[k]];
+                lowest = z < lowest ? z : lowest;
+            }
+        }
+        return static_cast<double>(dem_[i]) - static_cast<double>(lowest);
+    }
+
+private:
+    Raster<float> const& dem_;
+    std::array<Cell, 16> around_;
+    std::array<std::int64_t, 16> offsets_{};
+    std::int64_t reach_ = 0; ///< [cells] the most along an axis
+};
+
+AllDrops drops_of(Raster<float> const& dem, Cells const& divide, VarietyParams const& params, Run const& run) {
     constexpr std::int64_t rows_a_block = 256;
     double const radius = params.wall_m / dem.grid().cell_m;
     auto const step = std::max<std::int64_t>(static_cast<std::int64_t>(radius / 10.0), 1);
-    std::array<Cell, 16> const around = circle(radius);
-    Near const beside(is, divide, params.divide_m);
+    DropBelow const drop(dem, radius);
+    Near const beside(dem.grid(), divide, params.divide_m);
     std::vector<AllDrops> blocks(static_cast<std::size_t>((dem.height() + rows_a_block - 1) / rows_a_block));
     parallel_ranges(run, std::ssize(blocks), 1, [&](std::int64_t begin, std::int64_t end) {
         std::vector<std::int64_t> change;
@@ -399,32 +438,31 @@ AllDrops drops_of(Raster<float> const& dem, Mask const& is, VarietyParams const&
         for (std::int64_t b = begin; b < end; ++b) {
             run.check();
             for (std::int64_t r = b * rows_a_block; r < std::min((b + 1) * rows_a_block, dem.height()); ++r) {
-                if (r % step == 0) {
+                for (std::int64_t const c : beside.in_row(r)) {
+                    blocks[b].divide.add(drop.at({c, r}));
+                }
+                if (r % step != 0) {
+                    continue;
+                }
+                if (!divide.empty()) { // what is away from nothing is not compared
                     beside.row(r, change, near);
                 }
-                for (std::int64_t c = 0; c < dem.width(); ++c) {
-                    bool const on_lattice = r % step == 0 && c % step == 0;
-                    bool const is_divide = (is[Cell{c, r}] & divide) != 0;
-                    if ((!on_lattice && !is_divide) || std::isnan(dem[Cell{c, r}])) {
+                for (std::int64_t c = 0; c < dem.width(); c += step) {
+                    if (std::isnan(dem[Cell{c, r}])) {
                         continue;
                     }
-                    double const drop = drop_at(dem, {c, r}, around);
-                    if (is_divide) {
-                        blocks[b].divide.add(drop);
-                    }
-                    if (on_lattice) {
-                        blocks[b].lattice.add(drop);
-                    }
-                    if (on_lattice && near[static_cast<std::size_t>(c)] == 0) {
-                        blocks[b].elsewhere.add(drop);
+                    double const drop_m = drop.at({c, r});
+                    blocks[b].lattice.add(drop_m);
+                    if (!divide.empty() && near[static_cast<std::size_t>(c)] == 0) {
+                        blocks[b].elsewhere.add(drop_m);
                     }
                 }
             }
         }
     });
-    AllDrops total;
-    for (AllDrops const& block : blocks) {
-        total.add(block);
+    AllDrops total = std::move(blocks.front());
+    for (std::size_t b = 1; b < blocks.size(); ++b) {
+        total.add(blocks[b]);
     }
     return total;
 }
@@ -434,20 +472,18 @@ double share_outside(Raster<float> const& dem, Mask const& is) {
     std::int64_t land = 0;
     std::int64_t past = 0;
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        if (!std::isnan(dem[i])) {
-            ++land;
-            past += (is[i] & outside) != 0 ? 1 : 0;
-        }
+        land += std::isnan(dem[i]) ? 0 : 1;
+        past += (is[i] & outside) != 0 ? 1 : 0; // none of these is without a height
     }
     return land > 0 ? static_cast<double>(past) / static_cast<double>(land) : 0.0;
 }
 
-void measure_drops(Raster<float> const& dem, Mask const& is, VarietyParams const& params, Run const& run,
+void measure_drops(Raster<float> const& dem, Cells const& divide, VarietyParams const& params, Run const& run,
                    Variety& found) {
     if (static_cast<double>(std::min(dem.width(), dem.height())) * dem.grid().cell_m < 2.0 * params.wall_m) {
         return;
     }
-    AllDrops const drops = drops_of(dem, is, params, run);
+    AllDrops const drops = drops_of(dem, divide, params, run);
     double const usual = drops.lattice.percentile(0.9);
     if (usual > 0.0) {
         found.steepest_drop = drops.lattice.percentile(0.999) / usual;
@@ -470,16 +506,18 @@ Variety variety(Raster<float> const& dem, flow::FlowField const& drainage, std::
         return found;
     }
     std::int64_t const support_cells = support_of(dem.grid(), params.stream_m2);
-    Mask is = river_cells(dem, drainage, rivers, support_cells);
-    measure_windows(dem, is, params, run, found);
+    Mask is(dem.grid());
+    Cells const river_cells = mark_rivers(dem, drainage, rivers, support_cells, is);
+    measure_windows(dem, river_cells, params, run, found);
     measure_stems(dem, drainage, support_cells, params, run, found);
-    measure_banks(dem, is, params.bank_tangent * dem.grid().cell_m, found);
+    measure_banks(dem, is, river_cells, params.bank_tangent * dem.grid().cell_m, found);
+    Cells divide;
     if (!rivers.empty()) {
         mark_sides(dem, drainage, run, is);
-        mark_divide(is);
+        divide = divide_of(is);
         found.outside_share = share_outside(dem, is);
     }
-    measure_drops(dem, is, params, run, found);
+    measure_drops(dem, divide, params, run, found);
     return found;
 }
 

@@ -49,4 +49,22 @@ inline int main_donor(flow::FlowField const& drainage, Cell cell) {
     return best;
 }
 
+/// Walks up a main stem, along the largest area.
+/// \param drainage flow field of the DEM
+/// \param support_cells [1, ...] least contributing area of a cell
+/// \param visit called as visit(Cell, std::size_t) with each cell above the mouth and the D8 direction to it
+template <class Visit>
+void each_cell_above(flow::FlowField const& drainage, std::int64_t mouth, std::int64_t support_cells,
+                     Visit const& visit) {
+    Cell at = drainage.grid().at(mouth);
+    for (int k = main_donor(drainage, at); k >= 0; k = main_donor(drainage, at)) {
+        auto const way = static_cast<std::size_t>(k);
+        at = {at.col + d8_steps[way].col, at.row + d8_steps[way].row};
+        if (drainage.area_cells[at] < support_cells) {
+            return;
+        }
+        visit(at, way);
+    }
+}
+
 } // namespace thalweg::measure
