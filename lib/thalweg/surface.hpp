@@ -12,6 +12,7 @@
 #include <thalweg/surface/equilibrium/match_texture.hpp>
 #include <thalweg/surface/equilibrium/rebuild.hpp>
 #include <thalweg/surface/gaps/close_gaps.hpp>
+#include <thalweg/surface/strata/strata.hpp>
 #include <thalweg/surface/tin/level_areas.hpp>
 #include <thalweg/surface/tin/rasterise_tin.hpp>
 #include <thalweg/surface/uplift/uplift_pattern.hpp>

@@ -121,6 +121,24 @@ EquilibriumTerrain land_of(Scene const& scene) {
     }
 }
 
+/// Layers as thick as a few cells.
+surface::Strata any_strata(Grid const& grid, std::uint64_t seed) {
+    auto const number = [&](std::uint64_t what, std::uint64_t n) { return unit(random_word(seed, 60 + what, n)); };
+    surface::Strata strata;
+    for (std::uint64_t k = 0; k < 2 + random_word(seed, 59) % 12; ++k) {
+        strata.layers.push_back({.thickness_m = grid.cell_m * (0.2 + 3.0 * number(1, k)),
+                                 .strength = std::exp(8.0 * number(2, k) - 4.0),
+                                 .cliff = 0.05 + 6.0 * number(3, k)});
+    }
+    strata.base_m = grid.cell_m * (4.0 * number(4, 0) - 3.0);
+    strata.dip_deg = random_word(seed, 58) % 2 == 0 ? 0.0 : 60.0 * number(5, 0);
+    strata.strike_deg = 360.0 * number(6, 0);
+    strata.undulation_m = 2.0 * grid.cell_m * number(7, 0);
+    strata.undulation_wave_m = 10.0 * grid.cell_m;
+    strata.seed = seed;
+    return strata;
+}
+
 Scene any_scene() {
     auto const width = *rc::gen::inRange<std::int64_t>(1, 41).as("width");
     auto const height = *rc::gen::inRange<std::int64_t>(1, 41).as("height");
@@ -170,6 +188,8 @@ Scene any_scene() {
     }
     if (scene.params.heights != RiverHeights::graded) {
         add_heights(scene.rivers, seed);
+    } else if (scene.fields.features.empty() && *rc::gen::element(false, false, true).as("layers")) {
+        scene.fields.strata = any_strata(grid, seed);
     }
     return scene;
 }
@@ -408,6 +428,7 @@ TEST(Equilibrium, GivenHeightsHold) {
         scene.params.heights = *rc::gen::element(RiverHeights::soft, RiverHeights::fixed).as("which");
         scene.rivers.level.clear();
         add_heights(scene.rivers, scene.params.seed);
+        scene.fields.strata = {};
         EquilibriumTerrain const land = land_of(scene);
         float const ulps = 100.0F * static_cast<float>(scene.rivers.cell.size()) * 0x1p-22F;
         double deepest = 0.0;
@@ -828,6 +849,7 @@ TEST(Equilibrium, LakesHaveTheirLevels) {
         scene.room = Room::apart;
         add_lakes(scene.rivers, scene.params.seed);
         add_levels(scene.rivers, scene.params.seed);
+        scene.fields.strata = {};
         EquilibriumTerrain const land = land_of(scene);
         Channels const& rivers = scene.rivers;
         auto const z = [&](std::size_t n) { return land.dem[rivers.cell[n]]; };

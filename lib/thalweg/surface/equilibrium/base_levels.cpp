@@ -65,8 +65,7 @@ GradedHeights graded_heights(TerrainLevel const& level, EquilibriumLaw const& la
             out.end[n] = out.z[n];
             continue;
         }
-        float const length = level.side * step_lengths[rivers.direction[n]];
-        out.z[n] = out.z[r] + (rivers.level[n] != 0 ? 0.0F : graded_tangent(level, law, n) * length);
+        out.z[n] = rivers.level[n] != 0 ? out.z[r] : graded_height(level, law, n, out.z[r]);
         out.end[n] = out.end[r];
     }
     return out;

@@ -17,6 +17,7 @@
 #include <thalweg/surface/equilibrium/internal/given_rivers.hpp>
 #include <thalweg/surface/equilibrium/internal/known_features.hpp>
 #include <thalweg/surface/equilibrium/internal/land.hpp>
+#include <thalweg/surface/equilibrium/internal/level_layers.hpp>
 #include <thalweg/surface/equilibrium/internal/region.hpp>
 #include <thalweg/surface/equilibrium/internal/river_cells.hpp>
 #include <thalweg/surface/equilibrium/internal/start_level.hpp>
@@ -185,12 +186,20 @@ constexpr int pulled_after = 2; // rounds of the finest level, which has its val
 // factor of the tangent that finally counts as perched: such tips will not be lowered any more
 constexpr float of_perched = 3.0F;
 
+/// Layers of rock, and what the solver's units are in metres.
+struct LayersOfLand {
+    Strata const& strata;
+    HeightConversion conversion;
+    double most_m; ///< greatest height of land
+};
+
 /// What the land of levels is like.
 struct LandOfLevels {
     ErodibilityFields const& fields;
     ErodibilityParams const& rock;
     std::vector<FeatureCell> const& features;
     Grid const& grid; ///< of these
+    LayersOfLand const* layers;
 };
 
 /// Prepares a level for its rounds.
@@ -208,6 +217,10 @@ TerrainLevel prepared(LevelInput&& input, std::size_t number, TerrainLevel const
     set_erodibility(level, land.fields, land.rock, run);
     copy_firmness(level, coarser);
     copy_grade(level, coarser);
+    if (land.layers != nullptr) {
+        level.strata =
+            level_layers(level, land.layers->strata, land.grid, land.layers->conversion, land.layers->most_m, run);
+    }
     level.jitter = params.seed;
     run.check();
     if (coarser.z.empty()) {
@@ -234,6 +247,7 @@ void check_drained(TerrainLevel const& level, Mask const& land, std::int64_t mar
 /// Frees everything that the next level and the output do not need.
 void free_finished_memory(TerrainLevel& level) {
     level.rock = {};
+    level.strata = {};
     release(level.uplift);
     release(level.area);
 }
@@ -256,9 +270,10 @@ class Solver {
 public:
     /// \param features heights above the first river's end, in units
     /// \param extent [finest cells] of all levels
+    /// \param metres per unit, where it is known; 0: what gives the target
     Solver(EquilibriumParams const& params, Channels const& rivers, std::vector<FeatureCell> const& features,
-           Window const& window, double extent, Run const& run)
-        : params_(params), rivers_(rivers), features_(features), window_(window), run_(run),
+           Window const& window, double extent, double metres, Run const& run)
+        : params_(params), rivers_(rivers), features_(features), window_(window), run_(run), metres_(metres),
           law_(params, window.grid.cell_m, extent) {}
 
     /// The frame is set from the nearest rivers where the region has no information.
@@ -378,7 +393,9 @@ private:
     }
 
     void remove_tips(TerrainLevel& level) {
-        HeightConversion const raise = height_conversion_for(level, rivers_, window_, params_, run_);
+        HeightConversion const raise = metres_ > 0.0
+                                           ? HeightConversion{metres_, 0.0, mean_tangent(level, window_, metres_, run_)}
+                                           : height_conversion_for(level, rivers_, window_, params_, run_);
         perched_ = static_cast<float>(raise.mean_tangent * window_.grid.cell_m / raise.metres);
         level.bank_rise = steepest_bank * perched_ * level.side;
         if (params_.heads == Heads::kept) {
@@ -410,6 +427,7 @@ private:
     std::vector<FeatureCell> const& features_;
     Window const& window_;
     Run const& run_;
+    double metres_;
     EquilibriumLaw law_;
     float perched_ = 0.0F; ///< tangent above which river cells count as perched, in the solver's units
     std::vector<std::int64_t> shortened_;
@@ -457,13 +475,17 @@ double extent_of(std::vector<LevelInput> const& levels) {
 
 /// Solves all levels; rivers' heights are in solver units, or free.
 /// \param conversion of prescribed heights; null: none are
+/// \param layers null: rock without layers
+/// \param least_cells a level that has as many is the last one; 0: the finest is
 EquilibriumSolution solved(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
-                           HeightConversion const* conversion, Run const& run) {
+                           HeightConversion const* conversion, Run const& run, LayersOfLand const* layers = nullptr,
+                           std::int64_t least_cells = 0) {
     PaddedTerrain land = padded(rivers, fields, params);
     Region const region = region_around(rivers, fields, params);
     std::vector<LevelInput> levels = level_inputs(land, region, rivers.grid, params.seed);
     Window const window{rivers.grid, fields.land, land.margin};
-    Solver solver(params, rivers, fields.features, window, extent_of(levels), run);
+    Solver solver(params, rivers, fields.features, window, extent_of(levels),
+                  layers != nullptr ? layers->conversion.metres : 0.0, run);
     ErodibilityParams const rock = erodibility_of(params, window);
     TerrainLevel level;
     TerrainLevel around; // the region's finest level
@@ -471,7 +493,7 @@ EquilibriumSolution solved(Channels const& rivers, EquilibriumFields const& fiel
     std::vector<RegionInflow> inflows;
     for (std::size_t number = levels.size(); number-- > 0;) {
         level = prepared(std::move(levels[number]), number, level, around,
-                         {land.fields, rock, fields.features, rivers.grid}, params, run);
+                         {land.fields, rock, fields.features, rivers.grid, layers}, params, run);
         RegionFrame const frame =
             around.z.empty() || !params.inflow ? RegionFrame{} : frame_by_region(level, around, params.seed);
         solver.solve(level, number, levels.size(), frame);
@@ -489,6 +511,9 @@ EquilibriumSolution solved(Channels const& rivers, EquilibriumFields const& fiel
             steepness = stem_steepness(level, window.grid.cell_m);
         }
         free_finished_memory(level);
+        if (number > 0 && least_cells > 0 && level.cells() >= least_cells) {
+            return {std::move(level), {}, 0, land.margin, false, {}, steepness};
+        }
     }
     check_drained(level, fields.land, land.margin, rivers.grid);
     return {std::move(level),   solver.shortened(), solver.graded_heads(), land.margin, region.level > 0,
@@ -703,6 +728,123 @@ EquilibriumTerrain terrain_with_heights(Channels const& rivers, EquilibriumField
     return land;
 }
 
+constexpr std::int64_t cells_to_search = 20'000; // of a coarse level at least
+
+/// [log] the ratio of a solution's relief or mean slope to its target.
+double off_target(EquilibriumSolution const& land, Window const& window, double metres, EquilibriumParams const& params,
+                  Run const& run) {
+    double const share = land.level.side > 1.0F ? coarse_share_of_target(land.level, window, metres, params, run)
+                                                : share_of_target(land.level, window, metres, params, run);
+    return portable::log(std::max(share, 1e-6));
+}
+
+/// Where a function that grows is about 0, and its growth there.
+struct Zero {
+    double at = 0.0;
+    double growth = 1.0;
+};
+
+/// Brackets the zero of a function that grows, then narrows the bracket by false position.
+/// \param first a guess
+/// \param most calls of the function
+/// \param near absolute value that will do
+template <class Off> Zero zero_of(Zero first, int most, double near, Off off) {
+    constexpr double widest = 1.5; // step
+    constexpr double least_growth = 0.15;
+    constexpr double most_growth = 3.0;
+    std::optional<std::pair<double, double>> low; // where, value
+    std::optional<std::pair<double, double>> high;
+    Zero best = first;
+    double least = std::numeric_limits<double>::infinity();
+    double at = first.at;
+    double growth = first.growth;
+    std::pair<double, double> before;
+    for (int k = 0; k < most; ++k) {
+        double const value = off(at);
+        if (std::fabs(value) < least) {
+            best.at = at;
+            least = std::fabs(value);
+        }
+        (value < 0.0 ? low : high) = {at, value};
+        if (low && high) {
+            double const share = low->second / (low->second - high->second);
+            at = low->first + std::clamp(share, 0.2, 0.8) * (high->first - low->first);
+            growth = (high->second - low->second) / (high->first - low->first);
+        } else {
+            if (k > 0) {
+                growth = std::clamp((value - before.second) / (at - before.first), least_growth, most_growth);
+            }
+            before = {at, value};
+            at += std::clamp(-value / growth, -widest, widest);
+        }
+        best.growth = std::clamp(growth, least_growth, most_growth);
+        if (least <= near) {
+            break;
+        }
+    }
+    return best;
+}
+
+/// Metres per unit that give rock without layers its target, on a coarse level.
+double metres_without_layers(EquilibriumSolution const& land, Window const& window, EquilibriumParams const& params,
+                             Run const& run) {
+    constexpr int steps = 24;
+    auto const off = [&](double at) { return off_target(land, window, portable::exp(at), params, run); };
+    return portable::exp(zero_of({portable::log(window.grid.cell_m), 1.0}, steps, 1e-3, off).at);
+}
+
+/// Terrain in layers of rock around graded rivers. Layers are in metres and the solver is not, so that the number of
+/// metres per unit that gives the target is searched for on a coarse level, and corrected on the finest.
+EquilibriumTerrain terrain_in_layers(Channels const& rivers, EquilibriumFields const& fields,
+                                     EquilibriumParams const& params, Run const& run) {
+    constexpr int most_solves = 8;    // of a coarse level
+    constexpr int most_of_finest = 4; // of the finest
+    constexpr double near = 0.035;    // [log] of the target
+    constexpr double far_above = 2.0; // of the land without layers: no slope between closed edges climbs beyond
+    Run quiet = run;
+    quiet.preview = nullptr;
+    EquilibriumSolution coarse = solved(rivers, fields, params, nullptr, quiet, nullptr, cells_to_search);
+    std::int64_t const margin = coarse.margin;
+    Window const window{rivers.grid, fields.land, margin};
+    double metres = metres_without_layers(coarse, window, params, run);
+    HeightConversion const unit{1.0, 0.0, 0.0};
+    Raster<float> const without = coarse_terrain(coarse.level, window, &unit, params, run);
+    double highest = 0.0;
+    for (float const z : without.values()) {
+        highest = std::isnan(z) ? highest : std::max(highest, static_cast<double>(z));
+    }
+    coarse = {};
+    double const highest_m = highest * metres;
+    auto const solve = [&](double at, std::int64_t least_cells, Run const& with) {
+        LayersOfLand const layers{fields.strata, {at, 0.0, 0.0}, far_above * std::max(highest_m, highest * at)};
+        return solved(rivers, fields, params, &layers.conversion, with, &layers, least_cells);
+    };
+    Zero found{portable::log(metres), 0.8};
+    if (params.bring_to_target) {
+        found = zero_of(found, most_solves, 0.5 * near, [&](double at) {
+            EquilibriumSolution const land = solve(portable::exp(at), cells_to_search, quiet);
+            return off_target(land, window, portable::exp(at), params, run);
+        });
+    }
+    EquilibriumSolution land;
+    double best = std::numeric_limits<double>::infinity();
+    zero_of(found, params.bring_to_target ? most_of_finest : 1, near, [&](double at) {
+        EquilibriumSolution next = solve(portable::exp(at), 0, land.level.z.empty() ? run : quiet);
+        double const off = off_target(next, window, portable::exp(at), params, run);
+        if (std::fabs(off) < best) {
+            best = std::fabs(off);
+            land = std::move(next);
+            metres = portable::exp(at);
+        }
+        return off;
+    });
+    HeightConversion const raise{metres, -lowest_end_of(land.level, rivers, window) * metres,
+                                 mean_tangent(land.level, window, metres, run)};
+    EquilibriumTerrain out = graded_terrain(std::move(land), rivers, fields, params, raise, run);
+    out.strata_shift_m = -raise.base_m;
+    return out;
+}
+
 EquilibriumTerrain balanced(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
                             Run const& run) {
     Channels drawn = rivers;
@@ -711,9 +853,12 @@ EquilibriumTerrain balanced(Channels const& rivers, EquilibriumFields const& fie
     bool const is_asked = asks_heights(rivers, params);
     bool const by_lakes = has_levels(rivers);
     EquilibriumParams wanted = params;
-    // prescribed heights do not depend on the region
-    wanted.region = is_asked ? 1.0 : params.region;
+    // prescribed heights and layers do not depend on the region
+    wanted.region = is_asked || !fields.strata.empty() ? 1.0 : params.region;
     wanted.heights = is_asked ? params.heights : RiverHeights::graded;
+    if (!fields.strata.empty()) {
+        return terrain_in_layers(drawn, fields, wanted, run);
+    }
     Run quiet = run; // heights that are prescribed are not in the first solution
     quiet.preview = is_asked || by_lakes ? nullptr : run.preview;
     EquilibriumSolution graded = solved(drawn, fields, wanted, nullptr, quiet);
@@ -740,6 +885,22 @@ EquilibriumTerrain balanced(Channels const& rivers, EquilibriumFields const& fie
     land.steepness = steepness;
     land.is_bounded = is_bounded;
     return land;
+}
+
+void check_layers(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params) {
+    if (fields.strata.empty()) {
+        return;
+    }
+    Bed const checked(fields.strata);
+    if (asks_heights(rivers, params)) {
+        refuse_layers(fields, "prescribed heights of rivers", R"(network.heights = "graded" does without)");
+    }
+    if (has_levels(rivers)) {
+        refuse_layers(fields, "levels of lakes", "leave the levels out");
+    }
+    if (!fields.features.empty()) {
+        refuse_layers(fields, "known points and ridges", "leave them out");
+    }
 }
 
 /// Known heights as heights above the first river's end, in the solver's units.
@@ -792,6 +953,11 @@ void check_rivers(Channels const& rivers, EquilibriumFields const& fields) {
     check_levels(rivers);
 }
 
+void refuse_layers(EquilibriumFields const& fields, char const* with, char const* instead) {
+    refuse_if<BadInput>(!fields.strata.empty(), "surface.equilibrium",
+                        "layers of rock cannot be combined with {} yet; {}", with, instead);
+}
+
 bool has_levels(Channels const& rivers) {
     return std::any_of(rivers.lake_z.begin(), rivers.lake_z.end(), [](float z) { return !std::isnan(z); });
 }
@@ -824,6 +990,7 @@ EquilibriumTerrain equilibrium(Channels const& rivers, EquilibriumFields const& 
                                Run const& run) {
     check_params(params);
     check_rivers(rivers, fields);
+    check_layers(rivers, fields, params);
     run.check();
     return fields.features.empty() ? balanced(rivers, fields, params, run)
                                    : through_features(rivers, fields, params, run);

@@ -12,6 +12,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/flow/direction.hpp>
 #include <thalweg/surface/equilibrium/features.hpp>
+#include <thalweg/surface/strata/strata.hpp>
 
 // Idea: Landscape evolution to its end. Uplift raises, rivers cut K A^theta S, debris flows cut
 // where few cells drain, creep rounds crests; where the three balance heights no longer change.
@@ -66,6 +67,7 @@ struct EquilibriumFields {
     Raster<float> uplift;              ///< > 0, only ratios count
     Raster<float> erodibility;         ///< > 0, only ratios count (lithology)
     std::vector<FeatureCell> features; ///< by cell, each once; on rivers and the sea they have no effect
+    Strata strata;                     ///< layers of rock, above the lowest end of a river
 };
 
 /// Options of equilibrium().
@@ -120,7 +122,8 @@ struct EquilibriumTerrain {
     double rise = 0.0;                 ///< height [m] of one unit of the solver / cell size
     /// [m^0.9] normalised steepness of the main stems of graded rivers, those of larger basins more; NaN: not graded
     double steepness = std::numeric_limits<double>::quiet_NaN();
-    bool is_bounded = false; ///< by the greatest steepness, so that the mean slope is less than its target
+    double strata_shift_m = 0.0; ///< by which layers lie lower than asked, as rivers fall beyond an open edge
+    bool is_bounded = false;     ///< by the greatest steepness, so that the mean slope is less than its target
 };
 
 /// Builds terrain in equilibrium with given rivers: uplift equals fluvial incision (K A^theta S, debris flows where A
@@ -136,7 +139,7 @@ struct EquilibriumTerrain {
 /// with a level and to the river's end; what is prescribed for rivers below and above yields. The same bytes for any
 /// number of threads.
 /// \throws BadParameter when a parameter is outside its range
-/// \throws BadInput for channels that break their law, fields on another grid, not above 0 or with holes on land, no
+/// \throws BadInput where layers meet prescribed heights, known points or levels of lakes; for channels that break their law, fields on another grid, not above 0 or with holes on land, no
 /// land, a river at sea, prescribed heights that rise, or a level that is infinite or within a lake
 ///
 /// Source: \cite perron2009 (hillslope length); \cite braun2013 (order); \cite barnes2014 (flood); \cite stock2003

@@ -435,6 +435,25 @@ double share_of_target(TerrainLevel const& level, Window const& window, double m
     return part_of_target(HeightRows(level, window), metres / window.grid.cell_m, params, run);
 }
 
+double lowest_end_of(TerrainLevel const& level, Channels const& rivers, Window const& window) {
+    return static_cast<double>(lowest_end(level, window, rivers));
+}
+
+double mean_tangent(TerrainLevel const& level, Window const& window, double metres, Run const& run) {
+    Slopes const slopes = slopes_of(HeightRows(level, window), run);
+    double const slope = slopes.empty() ? 0.0 : slopes.mean(metres / window.grid.cell_m) * (portable::pi / 180.0);
+    return portable::sin(slope) / portable::cos(slope);
+}
+
+double coarse_share_of_target(TerrainLevel const& level, Window const& window, double metres,
+                              EquilibriumParams const& params, Run const& run) {
+    HeightConversion const conversion{metres, 0.0, 0.0};
+    Raster<float> const dem = coarse_terrain(level, window, &conversion, params, run);
+    EquilibriumParams target = params;
+    target.mean_slope_deg *= portable::pow(level.side, -slope_by_cell);
+    return share_of_target(dem, 1.0 / dem.grid().cell_m, target, run);
+}
+
 Raster<float> coarse_terrain(TerrainLevel const& level, Window const& window, HeightConversion const* conversion,
                              EquilibriumParams const& params, Run const& run) {
     auto const side = static_cast<std::int64_t>(level.side);

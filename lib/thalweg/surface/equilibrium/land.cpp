@@ -119,7 +119,7 @@ std::size_t follow_in_band(TerrainLevel& level, std::int64_t top, std::int64_t b
 constexpr float tolerance = 1.5F; // relative to the cap
 
 float greatest_height(TerrainLevel const& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
-    float const steepest = tolerance * level.side * level.rock.cap(i);
+    float const steepest = tolerance * level.strata.steepest * level.side * level.rock.cap(i);
     float most = level.z[i];
     for (std::size_t k = 0; k < offsets.size(); ++k) {
         most = std::min(most, level.z[moved(i, offsets[k])] + steepest * step_lengths[k]);
@@ -191,6 +191,34 @@ std::vector<float> half_widths(TerrainLevel const& level, FloorParams const& par
     return widths;
 }
 
+/// Weights of the neighbours from which soil creeps to a land cell.
+float creep_weight(TerrainLevel const& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
+    if (level.type[i] == CellType::land || level.type[i] == CellType::bank) {
+        return 4.0F * (by_side + by_corner);
+    }
+    float weight = 0.0F;
+    for (std::size_t k = 0; k < offsets.size(); ++k) {
+        weight += level.type[moved(i, offsets[k])] == CellType::outside ? 0.0F : k % 2 == 0 ? by_side : by_corner;
+    }
+    return weight;
+}
+
+/// The height of a land cell in layers of rock.
+/// \param next the receiver, whose height is below
+/// \param force, cutting, creep as LandBalance
+float height_in_layers(TerrainLevel const& level, std::size_t i, std::size_t next, float force, float cutting,
+                       float creep, float length, float below) {
+    LevelLayers const& strata = level.strata;
+    auto const bed = [&](std::size_t cell) { return static_cast<double>(strata.bed[cell]); };
+    LandBalance const balance{
+        static_cast<double>(force),       static_cast<double>(creep),
+        static_cast<double>(cutting),     static_cast<double>(length),
+        static_cast<double>(level.least), static_cast<double>(level.rock.cap(i) / steepest_tangent)};
+    double const z = height_in_layers(strata.layers, balance, static_cast<double>(below), bed(next), bed(i));
+    float const least = below + level.least * length;
+    return std::max(static_cast<float>(std::min(z, strata.most)), least);
+}
+
 /// How heights of land follow from those of receivers, from the heights before a sweep.
 class Relaxer {
 public:
@@ -206,6 +234,7 @@ public:
 
     /// [finest cells] of the D8 steps.
     std::array<float, 8> const& length() const { return length_; }
+    float creep_rate() const { return creep_rate_; }
 
     /// Sets banks; of other land cells z becomes their height above a receiver at 0, and the bits of area become those
     /// of the float by which it grows with the receiver's height.
@@ -269,6 +298,10 @@ private:
                              level_.side * step_lengths[1],
                              creep_rate_};
         float* const rise = &level_.z[first];
+        if (!level_.strata.empty()) {
+            prepare_in_layers(row, first, power);
+            return;
+        }
         relaxation(row, power.data(), rise, share.data(), inner_);
         for (std::size_t c = 0; c < count; ++c) {
             std::size_t const i = first + c;
@@ -285,6 +318,47 @@ private:
             }
         }
     }
+
+    /// Sets banks; of other land cells z becomes what raises them, and the bits of area what cuts them.
+    void prepare_in_layers(RowOfLevel const& row, std::size_t first, std::vector<float> const& power) const {
+        for (std::size_t c = 0; c < power.size(); ++c) {
+            std::size_t const i = first + c;
+            if (CellType const type = level_.type[i]; is_land(type)) {
+                auto const way = static_cast<std::size_t>(level_.direction[i]);
+                float const force = row.uplift[c] + creep_rate_ * creep_gain(row, i, c);
+                float const cutting = power[c] * row.erodibility[c];
+                if (is_bank(type)) {
+                    float const below = row.beside(static_cast<std::int64_t>(c), way);
+                    float const z = height_in_layers(level_, i, moved(i, offsets_[way]), force, cutting, creep_at(i),
+                                                     length_[way], below);
+                    level_.z[i] = above_rivers(row, i, c, std::min(z, below + level_.bank_rise));
+                } else {
+                    level_.z[i] = force;
+                    level_.area[i] = std::bit_cast<std::uint32_t>(cutting);
+                }
+            } else {
+                level_.z[i] = row.z[1][c];
+            }
+        }
+    }
+
+    /// Weighted heights of the neighbours from which soil creeps.
+    float creep_gain(RowOfLevel const& row, std::size_t i, std::size_t c) const {
+        if (level_.type[i] == CellType::land) {
+            float const* const n = row.z[0] + c;
+            float const* const z = row.z[1] + c;
+            float const* const s = row.z[2] + c;
+            return by_side * ((z[1] + z[-1]) + (s[0] + n[0])) + by_corner * ((s[1] + s[-1]) + (n[1] + n[-1]));
+        }
+        float gain = 0.0F;
+        for (std::size_t k = 0; k < offsets_.size(); ++k) {
+            if (level_.type[moved(i, offsets_[k])] != CellType::outside) {
+                gain += (k % 2 == 0 ? by_side : by_corner) * row.beside(static_cast<std::int64_t>(c), k);
+            }
+        }
+        return gain;
+    }
+    float creep_at(std::size_t i) const { return creep_rate_ * creep_weight(level_, i, offsets_); }
 
     /// Creep has fewer neighbours at the rim.
     void relax_at_rim(RowOfLevel const& row, std::size_t i, std::size_t c, float power, float& share) const {
@@ -310,10 +384,14 @@ private:
         float const most = std::min(level_.rock.cap(i) * length_[way], level_.bank_rise);
         float z = relaxed(level_.z[i], share, row.beside(column, way), most, level_.least * length_[way]);
         z = pull_.floor.empty() ? z : std::max(z, pull_.floor[i]);
+        return above_rivers(row, i, c, z);
+    }
+
+    float above_rivers(RowOfLevel const& row, std::size_t i, std::size_t c, float z) const {
         float highest = -std::numeric_limits<float>::infinity();
         for (std::size_t k = 0; k < offsets_.size(); ++k) {
             if (level_.type[moved(i, offsets_[k])] == CellType::river) {
-                highest = std::max(highest, row.beside(column, k));
+                highest = std::max(highest, row.beside(static_cast<std::int64_t>(c), k));
             }
         }
         return std::max(z, highest + level_.least * level_.side);
@@ -361,6 +439,36 @@ private:
     std::int8_t const* direction_;
     float least_;
     FloorOf floor_of_;
+};
+
+/// The same in layers of rock.
+class SweepInLayers {
+public:
+    SweepInLayers(TerrainLevel& level, std::array<float, 8> const& length, float creep_rate)
+        : level_(level), offsets_(level.offsets()), length_(length), creep_rate_(creep_rate) {}
+
+    void operator()(std::size_t i) const {
+        auto const way = static_cast<std::size_t>(level_.direction[i]);
+        std::size_t const next = moved(i, offsets_[way]);
+        float& z = level_.z[i];
+        z = height_in_layers(level_, i, next, z, std::bit_cast<float>(level_.area[i]),
+                             creep_rate_ * creep_weight(level_, i, offsets_), length_[way], level_.z[next]);
+    }
+
+    /// Asks for what is read of a cell.
+    void fetch(std::size_t i) const {
+        __builtin_prefetch(&level_.z[i], 1);
+        __builtin_prefetch(&level_.area[i]);
+        __builtin_prefetch(&level_.direction[i]);
+        __builtin_prefetch(&level_.strata.bed[i]);
+        level_.rock.fetch_cap(i);
+    }
+
+private:
+    TerrainLevel& level_;
+    std::array<std::int64_t, 8> offsets_;
+    std::array<float, 8> length_;
+    float creep_rate_;
 };
 
 } // namespace
@@ -434,8 +542,7 @@ void accumulate_areas(TerrainLevel& level, Run const& run, std::int64_t rows) {
 void relax_terrain(TerrainLevel& level, LandLaw const& law, Pull const& pull, Run const& run) {
     Relaxer const relaxer(level, law, pull);
     relaxer.prepare(run);
-    auto const sweep = [&](auto floor_of) {
-        Sweep const visit(level, relaxer.length(), floor_of);
+    auto const sweep = [&](auto const& visit) {
         if (level.order.empty()) {
             each_upstream(level, CellType::rim, run, visit);
             return;
@@ -446,10 +553,12 @@ void relax_terrain(TerrainLevel& level, LandLaw const& law, Pull const& pull, Ru
             }
         }
     };
-    if (pull.floor.empty()) {
-        sweep([](std::size_t, float at) { return at; });
+    if (!level.strata.empty()) {
+        sweep(SweepInLayers(level, relaxer.length(), relaxer.creep_rate()));
+    } else if (pull.floor.empty()) {
+        sweep(Sweep(level, relaxer.length(), [](std::size_t, float at) { return at; }));
     } else {
-        sweep([&](std::size_t i, float at) { return std::max(at, pull.floor[i]); });
+        sweep(Sweep(level, relaxer.length(), [&](std::size_t i, float at) { return std::max(at, pull.floor[i]); }));
     }
     level.order.clear();
 }
@@ -512,7 +621,8 @@ void slide_terrain(TerrainLevel& level, Run const& run) {
     each_inner_row(level, run, [&](std::size_t first) {
         std::vector<float> caps(static_cast<std::size_t>(level.width - 2));
         level.rock.caps(first, caps);
-        slides(&level.z[first], caps.data(), tolerance * level.side, &steep[first], level.width, level.width - 2);
+        slides(&level.z[first], caps.data(), tolerance * level.strata.steepest * level.side, &steep[first], level.width,
+               level.width - 2);
     });
     std::vector<std::size_t> open;
     auto const slide = [&](std::size_t i) {

@@ -603,6 +603,7 @@ RebuiltTerrain rebuild(Channels const& given, EquilibriumFields const& fields, R
                        Run const& run) {
     check_params(params);
     check_rivers(given, fields);
+    refuse_layers(fields, "heights of rivers", R"(network.heights = "graded" does without)");
     Channels rivers = with_heights(given);
     rivers = falling(has_levels(rivers) ? with_levels(std::move(rivers)) : std::move(rivers));
     RebuiltTerrain out;

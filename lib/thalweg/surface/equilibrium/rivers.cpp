@@ -458,6 +458,24 @@ float graded_tangent(TerrainLevel const& level, EquilibriumLaw const& law, std::
     return std::min(level.rivers.grade_of(n) * graded, share_of_cap * std::min(level.rock.cap(i), steepest_tangent));
 }
 
+float graded_height(TerrainLevel const& level, EquilibriumLaw const& law, std::size_t n, float below) {
+    float const length = level.side * step_lengths[level.rivers.direction[n]];
+    float const tangent = graded_tangent(level, law, n);
+    LevelLayers const& strata = level.strata;
+    if (strata.empty()) {
+        return below + tangent * length;
+    }
+    std::size_t const i = level.rivers.cell[n];
+    auto const bed = static_cast<double>(strata.bed[i]);
+    auto const bed_below = static_cast<double>(strata.bed[level.rivers.cell[level.rivers.receiver[n]]]);
+    double const s =
+        climb_through(strata.layers, static_cast<double>(below) - bed_below, bed - bed_below, [&](std::size_t k) {
+            float const by = static_cast<float>(strata.layers[k].river_strength);
+            return static_cast<double>(std::max(least_tangent, std::min(tangent * by, strata.river_cap)) * length);
+        });
+    return std::max(static_cast<float>(s + bed), below + least_tangent * length);
+}
+
 std::vector<float> heights_through(RiverCells const& rivers, std::vector<float> const& fall, std::vector<float> asked) {
     return Profiles(rivers, fall, std::move(asked)).heights();
 }
@@ -481,7 +499,7 @@ void relax_rivers(TerrainLevel& level, EquilibriumLaw const& law) {
             continue;
         }
         float const length = level.side * step_lengths[rivers.direction[n]];
-        float const z = std::min(below + graded_tangent(level, law, n) * length, most[n]);
+        float const z = std::min(graded_height(level, law, n, below), most[n]);
         level.z[i] = std::max(z, below + least_tangent * length);
     }
 }

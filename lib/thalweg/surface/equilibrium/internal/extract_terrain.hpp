@@ -55,6 +55,16 @@ HeightConversion height_conversion_for(TerrainLevel const& level, Channels const
 double share_of_target(TerrainLevel const& level, Window const& window, double metres, EquilibriumParams const& params,
                        Run const& run);
 
+/// The lowest height at which a river ends on the caller's grid.
+double lowest_end_of(TerrainLevel const& level, Channels const& rivers, Window const& window);
+
+/// Mean slope of a window as a tangent, for this number of metres per unit.
+double mean_tangent(TerrainLevel const& level, Window const& window, double metres, Run const& run);
+
+/// The same as share_of_target() on a coarse level, where slopes are gentler.
+double coarse_share_of_target(TerrainLevel const& level, Window const& window, double metres,
+                              EquilibriumParams const& params, Run const& run);
+
 /// The caller's grid on the cells of a coarse level.
 /// \param conversion of the finest level where it is known: with prescribed heights; null: one that gives about the
 /// target

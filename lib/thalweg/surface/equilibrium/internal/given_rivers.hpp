@@ -20,6 +20,10 @@ double share_done(std::size_t number, int round, int rounds);
 
 /// \throws BadInput as equilibrium()
 void check_rivers(Channels const& rivers, EquilibriumFields const& fields);
+/// \throws BadInput where there are layers of rock
+/// \param with what they cannot be combined with
+/// \param instead what to do
+void refuse_layers(EquilibriumFields const& fields, char const* with, char const* instead);
 /// Whether lakes have levels.
 bool has_levels(Channels const& rivers);
 /// Prescribed heights that follow the levels of lakes: not below those downstream, below those upstream. Ends stay.

@@ -19,6 +19,7 @@
 #include <thalweg/core/run/memory.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
+#include <thalweg/surface/equilibrium/internal/layers.hpp>
 #include <thalweg/surface/equilibrium/internal/rock.hpp>
 
 // Described in docs/algorithms/equilibrium_levels.md.
@@ -209,6 +210,7 @@ struct TerrainLevel {
     Cells<CellType> type;
     Cells<float> z;
     Rock rock;
+    LevelLayers strata;
     Cells<float> uplift;                 ///< empty: 1 everywhere
     Cells<std::int8_t> direction;        ///< towards the receiver, as in d8_steps, or no_direction
     std::optional<std::uint64_t> jitter; ///< seed of jitter_codes(); none: nodes lie at the centres of cells

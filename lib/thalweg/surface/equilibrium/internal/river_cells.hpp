@@ -17,6 +17,9 @@ namespace thalweg::surface {
 /// Tangent of a graded river cell by its contributing area, at most a share of the cap.
 float graded_tangent(TerrainLevel const& level, EquilibriumLaw const& law, std::size_t n);
 
+/// The height of a graded river cell above its receiver's height, through layers of rock where there are some.
+float graded_height(TerrainLevel const& level, EquilibriumLaw const& law, std::size_t n, float below);
+
 /// Long profiles of rivers through prescribed heights: between them as steep as necessary, above the highest graded.
 /// \param fall by river cell: of a graded river, to its receiver
 /// \param asked by river cell: the prescribed height, or NaN; they do not rise downstream
