@@ -460,7 +460,7 @@ def _with_whole_paths(recipe: recipes.Recipe) -> recipes.Recipe:
     """The recipe with names of files that hold in any folder."""
     names_file = {key.path for key in recipes.recipe_keys() if key.is_file}
     for path, value in _values(tomllib.loads(recipes.write_recipe(recipe)), []):
-        if re.sub(r"^patch\.\d+", "patch", path) in names_file and value:
+        if re.sub(r"^(\w+)\.\d+\.", r"\1.", path) in names_file and value:
             whole = os.path.abspath(os.path.join(recipe.folder, str(value)))
             if os.path.exists(whole):  # else the address of a source elsewhere
                 recipe = recipes.set_key(recipe, path, whole)
@@ -497,7 +497,7 @@ def _values(sections: Mapping[Any, Any], files: list[_networks.TemporaryPath], p
     """Keys by their paths, tables and arrays as names of files; an empty section is {}."""
     for key, value in sections.items():
         path = f"{prefix}{key}"
-        if path == "patch" and isinstance(value, (list, tuple)):
+        if isinstance(value, (list, tuple)) and recipes.is_array_section(path):
             value = dict(enumerate(value, 1))
         if isinstance(value, Mapping):
             if not value:
@@ -542,17 +542,18 @@ def _value_in_toml(value: Value) -> str:
 
 
 def _toml_of(values: Mapping[str, Value]) -> str:
-    """A recipe of dotted keys; its patches, whose paths are patch.1.key, become an array of tables."""
+    """A recipe of dotted keys; patches and layers, whose paths are patch.1.key, become arrays of tables."""
     lines: list[str] = []
-    patches: dict[int, list[str]] = {}
+    arrays: dict[tuple[str, int], list[str]] = {}
     for path, value in values.items():
-        patch = re.fullmatch(r"patch\.(\d+)\.?(.*)", path, re.DOTALL)
-        into = patches.setdefault(int(patch[1]), []) if patch else lines
-        key = patch[2] if patch else path
+        item = re.fullmatch(r"(\w+)\.(\d+)\.?(.*)", path, re.DOTALL)
+        is_item = item is not None and recipes.is_array_section(item[1])
+        into = arrays.setdefault((item[1], int(item[2])), []) if item and is_item else lines
+        key = item[3] if item and is_item else path
         if key and not (value == {} and any(other.startswith(f"{path}.") for other in values)):
             into.append(f"{_dotted(key)} = {_value_in_toml(value)}")
-    for _, keys in sorted(patches.items()):
-        lines += ["[[patch]]", *keys]
+    for (name, _), keys in sorted(arrays.items()):
+        lines += [f"[[{name}]]", *keys]
     return "\n".join(lines) + "\n"
 
 

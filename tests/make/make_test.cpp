@@ -3,6 +3,7 @@
 #include <thalweg/make/make.hpp>
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/report/report.hpp>
+#include <thalweg/surface/strata/strata.hpp>
 #include <thalweg/surface/uplift/uplift_pattern.hpp>
 
 namespace make_test {
@@ -147,6 +149,35 @@ TEST(OutputFiles, UpliftOfTheTerrain) {
     EXPECT_TRUE(std::equal(found.values().begin(), found.values().end(), asked.values().begin()));
     set_key(recipe, "surface.method=dilate");
     EXPECT_TRUE(test::has(test::message_of([&] { check_recipe(recipe); }), "output.uplift"));
+}
+
+// strata.tif says which layer lies at the surface; what the rivers and the land are checked for holds in layers, too.
+TEST(OutputFiles, StrataAtTheSurface) {
+    ScratchFolder const scratch;
+    Recipe const recipe = recipe_of_text(
+        rivers_of + "[surface]\nrelief = 150\n[strata]\nbase = -10\ndip = 4\nstrike = 30\n[[layer]]\nthickness = 60\n"
+                    "strength = 0.5\ncliff = 0.5\n[[layer]]\nthickness = 40\nstrength = 8\ncliff = 5\n[[layer]]\n"
+                    "strength = 0.2\ncliff = 0.4\n[output]\nfiles = [\"dem\"]\n");
+    MakeResult const made = make_folder(recipe, scratch / "out");
+    Raster<float> const codes = io::read_dem(scratch / "out/strata.tif");
+    auto const report = nlohmann::json::parse(test::bytes_of(scratch / "out/report.json"));
+    surface::Strata strata;
+    strata.layers = {{60.0, 0.5, 0.5}, {40.0, 8.0, 5.0}, {100.0, 0.2, 0.4}};
+    strata.base_m = -10.0;
+    strata.dip_deg = 4.0;
+    strata.strike_deg = 30.0;
+    Raster<std::uint8_t> const asked = surface::layers_at(io::read_dem(scratch / "out/dem.tif"), strata,
+                                                          report["equilibrium"]["strata_shift_m"].get<double>());
+    std::array<std::int64_t, 4> cells{};
+    for (std::int64_t i = 0; i < codes.cells(); ++i) {
+        EXPECT_EQ(codes[i], static_cast<float>(asked[i])) << i;
+        ++cells.at(asked[i]);
+    }
+    EXPECT_EQ(cells[0], 0);
+    EXPECT_GT(std::min({cells[1], cells[2], cells[3]}), codes.cells() / 100);
+    for (Check const& check : made.assessment.checks) {
+        EXPECT_TRUE(check.ok) << check.name << " " << check.value;
+    }
 }
 
 TEST(OutputFiles, AreThoseThatAreAskedFor) {

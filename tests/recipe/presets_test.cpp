@@ -87,6 +87,21 @@ TEST(Presets, LeaveOutWhatOtherKeysDecide) {
     }
 }
 
+TEST(Presets, LeaveLayersAsTheyAreSet) {
+    Recipe const own = recipe_of("[[layer]]\nstrength = 2\n");
+    auto const values = values_of(with_preset(own, "canyonlands"));
+    EXPECT_EQ(values.at("layer.1.strength"), "2.0");
+    EXPECT_FALSE(values.contains("layer.2.strength") || values.contains("strata.base"));
+    EXPECT_EQ(values.at("surface.roughness"), "0.35");
+    Recipe const steep = with_preset(recipe_of("mean_slope = 12\n"), "canyonlands");
+    EXPECT_EQ(steep.layers.size(), 5U);
+    EXPECT_EQ(steep.surface->dilate.relief_m, 0.0) << "the mean slope is set";
+    EXPECT_NO_THROW(check_recipe(steep));
+    Recipe added = with_preset(default_recipe(), "mesa");
+    set_key(added, "layer.3.strength=9");
+    EXPECT_EQ(added.layers[2].strength, 9.0);
+}
+
 TEST(Presets, AreOfEquilibriumTerrain) {
     EXPECT_TRUE(has(fault_of(recipe_of("method = \"dilate\"\n"), "hills"), "preset 'hills' is of equilibrium terrain",
                     "it needs surface.method = \"equilibrium\" (here it is \"dilate\")"));

@@ -78,12 +78,18 @@ TEST(Recipe, WrittenRecipeReadsBack) {
     ASSERT_EQ(patches.patches.size(), 2U);
     EXPECT_EQ((*patches.patches[0].window)[3], 30.0);
     EXPECT_EQ(patches.patches[1].source, "b.tif");
-    for (Recipe const& one : {recipe, patches}) {
+    Recipe const layers = read_recipe(
+        "[network]\n[surface]\n[strata]\ndip = 12\n[[layer]]\nstrength = 0.3\n[[layer]]\ncliff = 5\n", "r.toml");
+    ASSERT_EQ(layers.layers.size(), 2U);
+    EXPECT_EQ(layers.layers[0].strength, 0.3);
+    EXPECT_EQ(layers.layers[1].cliff, 5.0);
+    for (Recipe const& one : {recipe, patches, layers}) {
         std::string const text = write_recipe(one);
         Recipe const again = read_recipe(text, "again");
         EXPECT_EQ(write_recipe(again), text);
         EXPECT_EQ(again.grid.origin, one.grid.origin);
         EXPECT_EQ(again.patches.size(), one.patches.size());
+        EXPECT_EQ(again.layers.size(), one.layers.size());
     }
 }
 
@@ -115,6 +121,12 @@ TEST(Recipe, UnknownKeysAreNamedWithTheNearestOne) {
              {"[network]\nsource = \"dlaa\"\n", "Did you mean 'dla'?"},
              {"[network]\n[surface]\nincrement = \"rise_fal\"\n", "Did you mean 'rise_fall'?"},
              {"[network]\n[surface]\n[[patch]]\nrotate = 1\n", "patch 1: source is missing"},
+             {"[network]\n[surface]\n[strata]\ndip = 3\n", "there are none: add tables [[layer]]"},
+             {"[network]\nheights = \"rosgen\"\n[surface]\n[[layer]]\n", R"(give network.heights = "graded")"},
+             {"[network]\n[skeleton]\npoints = \"p.csv\"\n[surface]\n[[layer]]\n",
+              "skeleton.points and skeleton.ridge"},
+             {"[network]\n[surface]\nmethod = \"dilate\"\n[[layer]]\nstrength = 3\n", "layer.1.strength"},
+             {"[network]\n[surface]\n[[layer]]\nstrength = 0\n", "layer.strength"},
              {"[network]\n[surface]\n[[patch]]\nsorce = \"a\"\n", "Did you mean 'patch.source'?"}}) {
         EXPECT_TRUE(has(fault_of(toml), words));
     }
@@ -402,8 +414,8 @@ TEST(TomlDepth, ARecipeOfNestedTablesIsRefusedWithItsLine) {
 // A key that docs name is one that a recipe may have.
 TEST(DocumentedKeys, Exist) {
     std::set<std::string> const known = keys_and_sections();
-    std::regex const named(
-        "`((?:grid|network|skeleton|surface|statistics|detail|patch|output)(?:\\.(?!hpp)[a-z_]+)+)"); // and no header
+    std::regex const named("`((?:grid|network|skeleton|surface|strata|layer|statistics|detail|patch|output)(?:\\.(?!"
+                           "hpp)[a-z_]+)+)"); // and no header
     std::filesystem::path const root(THALWEG_SOURCE_DIR);
     int found = 0;
     for (auto const& entry : std::filesystem::recursive_directory_iterator(root / "docs")) {

@@ -266,7 +266,7 @@ std::string recipe_page(CommandHelp const& program) {
         std::string const its_section = dot == std::string::npos ? "" : key.path.substr(0, dot);
         if (its_section != at) {
             at = its_section;
-            out += ".SS " + roff(at == "patch" ? "[[patch]]" : "[" + at + "]") + "\n";
+            out += ".SS " + roff(recipe::is_array_section(at) ? "[[" + at + "]]" : "[" + at + "]") + "\n";
         }
         out += tagged(fmt::format("\\fB{}\\fR{}", roff(name), key.unit.empty() ? "" : roff(" [" + key.unit + "]")),
                       key_text(key));

@@ -83,7 +83,9 @@ std::string keys_as_list(std::vector<KeyHelp> const& keys) {
         if (section_of(key.path) != section) {
             section = section_of(key.path);
             text += text.empty() ? "" : "\n";
-            text += section.empty() ? "" : section == "patch" ? "[[patch]]\n" : "[" + section + "]\n";
+            text += section.empty()                     ? ""
+                    : recipe::is_array_section(section) ? "[[" + section + "]]\n"
+                                                        : "[" + section + "]\n";
         }
         text += fmt::format("{:<17} {}{}\n{:<18}{}; {}{}\n", key_name(key.path), key.meaning,
                             key.unit.empty() ? "" : " [" + key.unit + "]", "", key.type, key.range,

@@ -13,6 +13,8 @@ const titles = {
   'network.lines': 'Rivers: lines of a file',
   skeleton: 'Ridges and points',
   surface: 'Surface',
+  strata: 'How layers of rock lie',
+  layer: 'Layer of rock',
   statistics: 'Statistics',
   detail: 'Detail',
   output: 'Output',

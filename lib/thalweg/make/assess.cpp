@@ -79,8 +79,8 @@ std::vector<Check> surface_checks(recipe::Recipe const& recipe, Terrain const& t
 /// Says what a reader of the hillshade would see: terrain in equilibrium that is not like land.
 void warn_of_relief(recipe::Recipe const& recipe, Terrain const& terrain, TerrainRelief const& relief,
                     StageLog& stage_log) {
-    constexpr std::int64_t least_cells = 250'000; // with fewer, randomness dominates
-    if (!terrain.ground.equilibrium()) {
+    constexpr std::int64_t least_cells = 250'000;                  // with fewer, randomness dominates
+    if (!terrain.ground.equilibrium() || !recipe.layers.empty()) { // the reference DEMs show no layers
         return;
     }
     UnlikeRealLand const found =

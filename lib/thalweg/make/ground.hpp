@@ -14,6 +14,7 @@
 #include <thalweg/fractal/match_statistics.hpp>
 #include <thalweg/recipe/recipe.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
+#include <thalweg/surface/strata/strata.hpp>
 
 namespace thalweg::make {
 
@@ -62,7 +63,8 @@ struct Equilibrium {
     double max_lowered_m = 0.0;               ///< soft: below the input heights
     double p95_lowered_m = 0.0;
     double rise = 0.0;
-    double steepness = 0.0; ///< [m^0.9] normalised, of the main stems; NaN: not graded
+    double steepness = 0.0;      ///< [m^0.9] normalised, of the main stems; NaN: not graded
+    double strata_shift_m = 0.0; ///< as surface::EquilibriumTerrain
     bool in_region = false;
     std::vector<surface::RegionInflow> inflows = {};
     std::optional<LikeStatistics> like = {}; ///< where surface.like is set
@@ -124,6 +126,11 @@ bool heights_are_invented(recipe::Recipe const& recipe);
 
 /// What files and pictures of such a terrain say.
 inline constexpr char const* invented_heights = "heights are invented: surface.relief or surface.like give others";
+
+/// How layers of rock lie in a grid.
+/// \param recipe with a surface in equilibrium
+/// \return without layers where the recipe has none
+surface::Strata strata_of(recipe::Recipe const& recipe, Grid const& grid);
 
 /// The uplift of terrain in equilibrium: of the recipe's raster times its pattern.
 /// \param recipe with a surface in equilibrium

@@ -212,6 +212,20 @@ void check_patches(Recipe const& recipe, Faults& faults) {
            "[[patch]] needs [surface]: there is no surface to paste into");
 }
 
+void check_strata(Recipe const& recipe, Faults& faults) {
+    add_if(recipe.strata && recipe.layers.empty(), faults,
+           "[strata] tells how layers lie, but there are none: add tables [[layer]], the lowest first");
+    if (!in_layers(recipe)) {
+        return;
+    }
+    constexpr char const* with = "[[layer]] does not go with {} yet: {}";
+    Heights const heights = recipe.network->heights;
+    add_if(heights != Heights::automatic && heights != Heights::graded, faults,
+           fmt::format(with, "heights of rivers", R"(give network.heights = "graded")"));
+    add_if(recipe.skeleton && !(recipe.skeleton->points.empty() && recipe.skeleton->ridge_lines.empty()), faults,
+           fmt::format(with, "skeleton.points and skeleton.ridge_lines", "leave them out"));
+}
+
 void check_output(OutputRecipe const& output, bool makes_tin, Faults& faults) {
     add_if(output.files && output.has(OutputFiles::areas) && !output.accumulation, faults,
            "output.files names areas, which are measured with output.accumulation = true");
@@ -295,6 +309,7 @@ void check_recipe(Recipe const& recipe) {
            "drawn at random");
     check_surface(recipe, faults);
     check_raster(recipe, faults);
+    check_strata(recipe, faults);
     check_patches(recipe, faults);
     check_frame(recipe, faults);
     check_output(recipe.output, recipe.skeleton && recipe.skeleton->tin, faults);

@@ -296,6 +296,9 @@ template <> surface::DilateParams* part_of(Recipe& recipe) {
 template <> surface::DiffuseParams* part_of(Recipe& recipe) {
     return within(recipe.surface, &SurfaceRecipe::diffuse);
 }
+template <> StrataRecipe* part_of(Recipe& recipe) {
+    return held(recipe.strata);
+}
 template <> StatisticsRecipe* part_of(Recipe& recipe) {
     return held(recipe.statistics);
 }

@@ -64,6 +64,7 @@ template <> SurfaceRecipe* part_of(Recipe& recipe);
 template <> EquilibriumRecipe* part_of(Recipe& recipe);
 template <> surface::DilateParams* part_of(Recipe& recipe);
 template <> surface::DiffuseParams* part_of(Recipe& recipe);
+template <> StrataRecipe* part_of(Recipe& recipe);
 template <> StatisticsRecipe* part_of(Recipe& recipe);
 template <> DetailRecipe* part_of(Recipe& recipe);
 template <> fractal::MidpointParams* part_of(Recipe& recipe);
@@ -126,6 +127,8 @@ inline Condition const with_surface = not with_rivers or ask::has(&Recipe::surfa
 inline Condition const around_rivers = with_rivers and ask::has(&Recipe::surface);
 /// The surface is in equilibrium with rivers.
 inline Condition const in_equilibrium = with_rivers and ask::is(&SurfaceRecipe::method, {Method::equilibrium});
+/// It is in layers of rock.
+inline Condition const in_layers = in_equilibrium and ask::has(&Recipe::layers);
 /// Rivers are grown for a surface in equilibrium with them.
 inline Condition const grown_for_land = in_equilibrium and not ask::is(&NetworkRecipe::source, {Source::lines});
 /// The surface is dilated from rivers.

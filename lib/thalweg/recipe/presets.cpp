@@ -32,8 +32,35 @@ bool is_decided(Recipe const& recipe, std::string const& path) {
     SurfaceRecipe const& surface = *recipe.surface;
     EquilibriumRecipe const& land = surface.equilibrium;
     bool const has_slope = surface.dilate.relief_m > 0.0 || !land.like.empty();
+    bool const of_layers = path.starts_with("layer.") || path.starts_with("strata.") || path == "surface.relief";
     return recipe.set_at.contains(path) || (path == "surface.mean_slope" && has_slope) ||
-           (path == "surface.roughness" && !land.like.empty()) || (path == "surface.lake_share" && !land.lakes.empty());
+           (path == "surface.roughness" && !land.like.empty()) ||
+           (path == "surface.lake_share" && !land.lakes.empty()) ||
+           (path == "surface.relief" && (recipe.set_at.contains("surface.mean_slope") || !land.like.empty())) ||
+           (of_layers && !recipe.layers.empty());
+}
+
+/// A preset of land in layers of rock, from the lowest up.
+Preset in_layers_of(std::vector<surface::RockLayer> const& layers, Preset preset) {
+    std::vector<KeyValue> keys{{"surface.uplift_pattern", "none"}, {"surface.lake_share", "0"}};
+    for (std::size_t k = 0; k < layers.size(); ++k) {
+        auto const add = [&](char const* name, double value) {
+            keys.push_back({fmt::format("layer.{}.{}", k + 1, name), fmt::format("{}", value)});
+        };
+        add("thickness", layers[k].thickness_m);
+        add("strength", layers[k].strength);
+        add("cliff", layers[k].cliff);
+    }
+    preset.keys.insert(preset.keys.begin(), keys.begin(),
+                       keys.end()); // without layers those of [strata] have no effect
+    return preset;
+}
+
+/// "layer.cliff" of "layer.2.cliff".
+std::string without_number(std::string const& path) {
+    std::size_t const first = path.find('.');
+    std::size_t const last = path.rfind('.');
+    return path.starts_with("layer.") && first != last ? path.substr(0, first) + path.substr(last) : path;
 }
 
 } // namespace
@@ -77,7 +104,33 @@ std::vector<Preset> const& presets() {
           {"surface.longest_wave", "5000"},
           {"surface.grain", "4"},
           {"surface.uplift_pattern", "none"},
-          {"surface.lake_share", "0"}}}};
+          {"surface.lake_share", "0"}}},
+        in_layers_of(
+            {{160.0, 0.5, 0.5}, {110.0, 8.0, 5.0}, {170.0, 0.35, 0.5}, {130.0, 8.0, 5.0}, {100.0, 0.05, 0.15}},
+            {"canyonlands",
+             "a plateau on two beds of cap rock, with canyons in steps where rivers have cut through",
+             "sand, arches or towers; layers are level but for gentle bends, and the rivers were there before them",
+             {{"surface.relief", "700"},
+              {"surface.roughness", "0.35"},
+              {"strata.base", "-30"},
+              {"strata.undulation", "40"}}}),
+        in_layers_of({{60.0, 0.1, 0.3}, {160.0, 0.5, 0.55}, {80.0, 12.0, 6.0}, {60.0, 0.3, 0.5}, {100.0, 0.03, 0.12}},
+                     {"mesa",
+                      "table mountains: what a cap rock still protects above a wide plain, with ragged cliffs",
+                      "a desert: no wind, no sand, and every valley drains to the edge",
+                      {{"surface.relief", "380"},
+                       {"surface.roughness", "0.45"},
+                       {"strata.undulation", "30"},
+                       {"strata.undulation_wave", "5000"}}}),
+        in_layers_of({{540.0, 0.45, 0.5}, {120.0, 8.0, 5.0}, {380.0, 0.3, 0.5}, {60.0, 6.0, 5.0}},
+                     {"ridge-and-valley",
+                      "long ridges of firm beds in folds that plunge: zigzags, and gaps where rivers cross them",
+                      "folds that overturn, or thrusts; the rivers take no notice of the folds",
+                      {{"surface.relief", "1000"},
+                       {"strata.repeat", "true"},
+                       {"strata.fold", "800"},
+                       {"strata.fold_wave", "7000"},
+                       {"strata.plunge", "5"}}})};
     return all;
 }
 
@@ -86,8 +139,9 @@ Recipe with_preset(Recipe recipe, std::string const& name) {
     refuse_if<BadParameter>(!in_equilibrium(recipe), "recipe.with_preset",
                             "preset '{}' is of equilibrium terrain: it needs {}", name, in_equilibrium.lacks(recipe));
     std::vector<std::string> given;
+    Recipe const asked = recipe;
     for (KeyValue const& key : preset.keys) {
-        if (!is_decided(recipe, key.path)) {
+        if (!is_decided(asked, key.path)) {
             given.push_back(key.path);
             set_key(recipe, key.path, key.text.value_or(""));
             recipe.set_at.erase(key.path); // by nobody: it need not have an effect
@@ -96,7 +150,7 @@ Recipe with_preset(Recipe recipe, std::string const& name) {
     refuse_if<BadParameter>(given.empty(), "recipe.with_preset",
                             "preset '{}' has no effect: the recipe sets every key of it", name);
     for (std::string const& path : given) {
-        if (!find_key(path)->use(recipe)) {
+        if (!find_key(without_number(path))->use(recipe)) {
             unset_key(recipe, path);
         }
     }

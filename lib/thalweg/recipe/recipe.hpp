@@ -25,6 +25,7 @@
 #include <thalweg/surface/diffusion/diffusion.hpp>
 #include <thalweg/surface/dilation/dilation.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
+#include <thalweg/surface/strata/strata.hpp>
 #include <thalweg/surface/uplift/uplift_pattern.hpp>
 
 namespace thalweg::recipe {
@@ -184,6 +185,26 @@ struct SurfaceRecipe {
     double max_cut_m = 10.0;                 ///< [m] >= 0 by which rivers may be cut into a DEM without a warning
 };
 
+/// The keys of section [strata] of a recipe: how layers of rock lie.
+struct StrataRecipe {
+    bool repeat = false; ///< layers lie above and below each other again and again
+    double base_m = 0.0;
+    double dip_deg = 0.0;
+    std::optional<double> strike_deg; ///< none: that of the surface
+    double fold_m = 0.0;              ///< amplitude
+    double fold_wave_m = 4000.0;
+    std::optional<double> fold_axis_deg; ///< none: along the strike of the layers
+    double plunge_deg = 0.0;
+    double dome_m = 0.0;
+    double dome_radius_m = 2500.0;
+    std::optional<std::array<double, 2>> dome_at;  ///< [m] none: the middle of the grid
+    double fault_m = 0.0;                          ///< throw
+    std::optional<double> fault_strike_deg;        ///< none: along the strike of the layers
+    std::optional<std::array<double, 2>> fault_at; ///< [m] none: the middle of the grid
+    double undulation_m = 0.0;
+    double undulation_wave_m = 3000.0;
+};
+
 /// What ridges lie midway between: points along the rivers, or the rivers themselves.
 enum class Ridges : std::uint8_t { none, voronoi, segments };
 
@@ -286,6 +307,8 @@ struct Recipe {
     std::optional<NetworkRecipe> network;
     std::optional<SkeletonRecipe> skeleton;
     std::optional<SurfaceRecipe> surface;
+    std::optional<StrataRecipe> strata;
+    std::vector<surface::RockLayer> layers; ///< from the lowest up
     std::optional<StatisticsRecipe> statistics;
     std::optional<DetailRecipe> detail;
     std::vector<PatchRecipe> patches; ///< in their order
@@ -322,6 +345,10 @@ struct KeyHelp {
 
 /// \return every key in the order of recipe files.
 std::vector<KeyHelp> recipe_keys();
+
+/// \param section "network", "patch"
+/// \return whether it is an array of tables, [[patch]], each of which is one more.
+bool is_array_section(std::string const& section);
 
 /// A key that has an effect in a recipe.
 struct KeyValue {

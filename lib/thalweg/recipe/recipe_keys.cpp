@@ -208,17 +208,23 @@ template <auto part> constexpr Section stage(char const* name) {
     return {name, count_of<part>, begin_one<part>, remove_one<part>};
 }
 
-constexpr std::array<Section, 9> sections = {
-    {{"", always_one, nothing_to_begin},
-     {"grid", always_one, nothing_to_begin},
-     stage<&Recipe::network>("network"),
-     stage<&Recipe::skeleton>("skeleton"),
-     stage<&Recipe::surface>("surface"),
-     stage<&Recipe::statistics>("statistics"),
-     stage<&Recipe::detail>("detail"),
-     {"patch", [](Recipe const& r) { return r.patches.size(); }, [](Recipe& r) { r.patches.emplace_back(); },
-      [](Recipe& r, Item item) { r.patches.erase(r.patches.begin() + static_cast<std::ptrdiff_t>(item)); }, true},
-     {"output", always_one, nothing_to_begin}}};
+/// Tables of which each mention is one more.
+template <auto part> constexpr Section array_of(char const* name) {
+    return {name, [](Recipe const& r) { return (r.*part).size(); }, [](Recipe& r) { (r.*part).emplace_back(); },
+            [](Recipe& r, Item item) { (r.*part).erase((r.*part).begin() + static_cast<std::ptrdiff_t>(item)); }, true};
+}
+
+constexpr std::array<Section, 11> sections = {{{"", always_one, nothing_to_begin},
+                                               {"grid", always_one, nothing_to_begin},
+                                               stage<&Recipe::network>("network"),
+                                               stage<&Recipe::skeleton>("skeleton"),
+                                               stage<&Recipe::surface>("surface"),
+                                               stage<&Recipe::strata>("strata"),
+                                               array_of<&Recipe::layers>("layer"),
+                                               stage<&Recipe::statistics>("statistics"),
+                                               stage<&Recipe::detail>("detail"),
+                                               array_of<&Recipe::patches>("patch"),
+                                               {"output", always_one, nothing_to_begin}}};
 
 /// By KeyKind.
 constexpr std::array<char const*, 11> type_names{"yes/no",        "integer",         "number",       "two numbers",
@@ -438,6 +444,11 @@ std::string unknown_key(std::string const& path) {
     }
     return fmt::format("unknown key '{}'.{} `thalweg recipe` lists every key.", path,
                        near.empty() ? "" : " Did you mean '" + near + "'?");
+}
+
+bool is_array_section(std::string const& section) {
+    Section const* const found = find_section(section);
+    return found != nullptr && found->is_array;
 }
 
 std::vector<KeyHelp> recipe_keys() {

@@ -96,6 +96,11 @@ Condition const above_rivers = with_ridges or (beside_rivers and ask::above(&Ske
                                (ask::given(&SkeletonRecipe::ridge_lines) and
                                 ask::is(&SurfaceRecipe::method, {Method::dilate, Method::diffuse, Method::tin}));
 
+Condition const folded = in_layers and ask::above(&StrataRecipe::fold_m, 0);
+Condition const domed = in_layers and (ask::above(&StrataRecipe::dome_m, 0) or ask::below(&StrataRecipe::dome_m, 0));
+Condition const faulted =
+    in_layers and (ask::above(&StrataRecipe::fault_m, 0) or ask::below(&StrataRecipe::fault_m, 0));
+
 /// Rivers fall by network.slope. Where the file of lines is still to be read, it may give them heights.
 Condition falls_by_slope() {
     Condition const by_themselves = ask::is(&NetworkRecipe::heights, {Heights::automatic});
@@ -580,6 +585,59 @@ Row const rows[] = {
     key("surface.eighth_term", word, "", {"x2y2", "x3y"}, from_points and is(&SurfaceRecipe::method, {Method::regress}),
         "the eighth term, whose exponents are illegible in Zhang, Liu and Li",
         [](Recipe& r, Item) -> Field { return choice(r.surface->regress.eighth); }),
+    key("strata.repeat", yes_no, "", {"true", "false"}, in_layers,
+        "the layers lie above and below each other again and again; else the lowest and the topmost have no end",
+        [](Recipe& r, Item) -> Field { return &r.strata->repeat; }),
+    key("strata.base", number, "m", {-1e5, 1e5}, in_layers,
+        "bottom of the lowest layer at the middle of the grid, above the lowest end of a river; folds, domes and "
+        "faults "
+        "move it",
+        [](Recipe& r, Item) -> Field { return &r.strata->base_m; }),
+    key("strata.dip", number, "degrees", {0, 75}, in_layers, "by which layers are tilted",
+        [](Recipe& r, Item) -> Field { return &r.strata->dip_deg; }),
+    key("strata.strike", number, "degrees", {-360, 360}, in_layers,
+        "direction of level lines on a layer, clockwise from north: it dips to the right of it; left out: "
+        "surface.strike",
+        [](Recipe& r, Item) -> Field { return &r.strata->strike_deg; }),
+    key("strata.fold", number, "m", {0, 1e5}, in_layers, "amplitude of folds, half the height from trough to crest",
+        [](Recipe& r, Item) -> Field { return &r.strata->fold_m; }),
+    key("strata.fold_wave", number, "m", {0, 1e7, left_open}, folded, "distance of their crests",
+        [](Recipe& r, Item) -> Field { return &r.strata->fold_wave_m; }),
+    key("strata.fold_axis", number, "degrees", {-360, 360}, folded,
+        "direction of their crests, clockwise from north; left out: strata.strike. Folds of rock are not those of "
+        "surface.uplift_pattern",
+        [](Recipe& r, Item) -> Field { return &r.strata->fold_axis_deg; }),
+    key("strata.plunge", number, "degrees", {-30, 30}, folded, "by which crests fall along that direction",
+        [](Recipe& r, Item) -> Field { return &r.strata->plunge_deg; }),
+    key("strata.dome", number, "m", {-1e5, 1e5}, in_layers, "rise of layers towards a place; below 0: a basin",
+        [](Recipe& r, Item) -> Field { return &r.strata->dome_m; }),
+    key("strata.dome_radius", number, "m", {0, 1e7, left_open}, domed, "distance where 0.61 of it is left",
+        [](Recipe& r, Item) -> Field { return &r.strata->dome_radius_m; }),
+    key("strata.dome_at", pair, "m", {"[x, y] within 1e9", is_near}, domed,
+        "its middle; left out: the middle of the grid", [](Recipe& r, Item) -> Field { return &r.strata->dome_at; }),
+    key("strata.fault", number, "m", {-1e5, 1e5}, in_layers,
+        "throw of a vertical fault: layers lie lower by it to the right of the way along the fault",
+        [](Recipe& r, Item) -> Field { return &r.strata->fault_m; }),
+    key("strata.fault_strike", number, "degrees", {-360, 360}, faulted,
+        "direction of the fault, clockwise from north; left out: strata.strike",
+        [](Recipe& r, Item) -> Field { return &r.strata->fault_strike_deg; }),
+    key("strata.fault_at", pair, "m", {"[x, y] within 1e9", is_near}, faulted,
+        "a point of it; left out: the middle of the grid",
+        [](Recipe& r, Item) -> Field { return &r.strata->fault_at; }),
+    key("strata.undulation", number, "m", {0, 1e5}, in_layers, "amplitude of random bends of all layers",
+        [](Recipe& r, Item) -> Field { return &r.strata->undulation_m; }),
+    key("strata.undulation_wave", number, "m", {0, 1e7, left_open}, in_layers and above(&StrataRecipe::undulation_m, 0),
+        "their wavelength", [](Recipe& r, Item) -> Field { return &r.strata->undulation_wave_m; }),
+    key("layer.thickness", number, "m", {0, 1e5, left_open}, in_equilibrium,
+        "across the layer; the first [[layer]] is the lowest",
+        [](Recipe& r, Item i) -> Field { return &r.layers[i].thickness_m; }),
+    key("layer.strength", number, "", {0.001, 1000}, in_equilibrium,
+        "how many times as steep as in rock without layers slopes are in it: soft rock 0.1 to 0.5, a cap rock 6 to "
+        "12, bare land above one 0.03 to 0.08",
+        [](Recipe& r, Item i) -> Field { return &r.layers[i].strength; }),
+    key("layer.cliff", number, "", {0.01, 20}, in_equilibrium,
+        "tangent of its steepest slopes: soft rock 0.3 to 0.55, cliffs 4 to 6",
+        [](Recipe& r, Item i) -> Field { return &r.layers[i].cliff; }),
     key("statistics.mean", number, "m", {-1e6, 1e6}, not with_rivers, "mean height",
         [](Recipe& r, Item) -> Field { return &r.statistics->mean; }),
     key("statistics.std", number, "m", {0, 1e6, left_open}, not with_rivers, "standard deviation of heights",

@@ -86,6 +86,8 @@ Recipe recipe_for_source(Recipe const& recipe) {
 Recipe recipe_for_planform(Recipe const& recipe) {
     Recipe read = recipe;
     read.skeleton.reset();
+    read.strata.reset();
+    read.layers.clear();
     read.detail.reset();
     read.patches.clear();
     read.output = output_of_rivers(recipe);

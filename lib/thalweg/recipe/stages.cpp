@@ -46,7 +46,10 @@ Stage const raise{"raise", usual, 8,
                                    not is(&NetworkRecipe::heights, {Heights::graded}))};
 
 Stage const channels{"channels", usual, 8, in_equilibrium};
-Stage const fill_in_equilibrium{"fill", 2.0, 19, in_equilibrium and is(&NetworkRecipe::heights, {Heights::graded})};
+Stage const fill_in_equilibrium{
+    "fill", 2.0, 19, in_equilibrium and is(&NetworkRecipe::heights, {Heights::graded}) and not has(&Recipe::layers)};
+Stage const fill_in_layers{"fill", 8.0, 30, // solved again until the metres of layers fit
+                           in_layers and is(&NetworkRecipe::heights, {Heights::graded})};
 Stage const fill_with_heights{"fill", 4.0, 31, // solved again until the metres of heights fit
                               in_equilibrium and not is(&NetworkRecipe::heights, {Heights::graded, Heights::file})};
 Stage const fill_rebuilt{"fill", 2.0, 62, in_equilibrium and is(&NetworkRecipe::heights, {Heights::file})};
@@ -99,6 +102,7 @@ std::span<Stage const* const> all_stages() {
                                                 &raise,
                                                 &channels,
                                                 &fill_in_equilibrium,
+                                                &fill_in_layers,
                                                 &fill_with_heights,
                                                 &fill_rebuilt,
                                                 &scatter,

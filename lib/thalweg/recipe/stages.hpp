@@ -41,8 +41,8 @@ struct Stage {
 /// The stages. timings_s of report.json has these names.
 namespace stage {
 extern Stage const raster, read, shape, grow, thin, trace, embed, adopt, sea, prune, meander, raise;
-extern Stage const channels, fill_in_equilibrium, fill_with_heights, fill_rebuilt, scatter, ridge, tin, fill_dilated,
-    fill, land, detail, project;
+extern Stage const channels, fill_in_equilibrium, fill_in_layers, fill_with_heights, fill_rebuilt, scatter, ridge, tin,
+    fill_dilated, fill, land, detail, project;
 extern Stage const blend; ///< once for each patch
 extern Stage const carve, drain, valleys, measure, certify, ridges, areas, laws, relief, catchments, check, compare;
 } // namespace stage

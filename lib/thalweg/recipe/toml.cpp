@@ -325,7 +325,7 @@ Value value_for(Key const& key, Recipe const& recipe, std::string const& text) {
 void assign(Recipe& recipe, Key const& key, std::optional<std::size_t> item, std::string const& text) {
     Value const value = value_for(key, recipe, text);
     std::size_t const count = key.part->count(recipe);
-    refuse_if<BadParameter>(item && *item > count, "recipe.set_key", "the recipe has {} patches", count);
+    refuse_if<BadParameter>(item && *item > count, "recipe.set_key", "the recipe has {} [[{}]]", count, key.part->name);
     key.put(recipe, value, item);
     recipe.set_at[key.place(item.value_or(key.part->count(recipe) - 1))] = "--set";
 }

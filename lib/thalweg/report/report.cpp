@@ -448,6 +448,9 @@ void add_statistics(make::MakeResult const& t, ordered_json& report) {
             {"side_valleys_left_out", t.terrain.bed.left_out},
             {"in_region", e.in_region},
             {"inflows", ordered_json::parse(inflows_json(t.terrain.grid, e.inflows))}};
+        if (!t.recipe.layers.empty()) {
+            report["equilibrium"]["strata_shift_m"] = e.strata_shift_m;
+        }
         if (e.like) {
             report["equilibrium"]["like"] = {{"mean_slope_deg", e.like->mean_slope_deg},
                                              {"lag_m", e.like->lag_m},

@@ -141,6 +141,13 @@ void write_areas(make::WaterAreas const& areas, io::OutputFolder const& out, Run
     io::write_field(areas.dinf, out.path("area_dinf.tif"), run);
 }
 
+void write_strata(make::MakeResult const& t, io::OutputFolder const& out, Run const& run) {
+    make::Terrain const& terrain = t.terrain;
+    Raster<std::uint8_t> const layers = surface::layers_at(terrain.ground.dem, make::strata_of(t.recipe, terrain.grid),
+                                                           terrain.ground.equilibrium()->strata_shift_m, run);
+    io::write_codes(layers, out.path("strata.tif"), run);
+}
+
 void write_uplift(make::MakeResult const& t, io::OutputFolder const& out, Run const& run) {
     Raster<float> const uplift = make::relative_uplift(t.recipe, t.terrain.grid, run);
     Raster<double> field(t.terrain.grid, 1.0);
@@ -399,6 +406,9 @@ private:
         }
         if (writes(recipe::OutputFiles::dem)) {
             add("write_dem", [this](Run const& run) { write_dem(made_, out_, run); });
+            if (!made_.recipe.layers.empty() && made_.terrain.ground.equilibrium() != nullptr) {
+                add("write_strata", [this](Run const& run) { write_strata(made_, out_, run); });
+            }
         }
         if (writes(recipe::OutputFiles::pictures)) {
             if (!made_.terrain.ground.dilated().increments.empty()) {

@@ -106,9 +106,10 @@ public:
     }
     void operator()(UnsetKey const& step) {
         recipe::unset_key(recipe_, step.key);
-        bool const renumbers = step.key.starts_with("patch.");
+        std::string const section = step.key.substr(0, step.key.find('.') + 1);
+        bool const renumbers = !section.empty() && recipe::is_array_section(section.substr(0, section.size() - 1));
         std::erase_if(set_, [&](std::string const& key) {
-            return key == step.key || key.starts_with(step.key + ".") || (renumbers && key.starts_with("patch."));
+            return key == step.key || key.starts_with(step.key + ".") || (renumbers && key.starts_with(section));
         });
         is_settled_ = false;
     }

@@ -91,6 +91,7 @@ surface::EquilibriumFields equilibrium_fields(GroundInput const& in, Channels co
     fields.erodibility =
         recipe::read_field(recipe::file_in(recipe, wanted.equilibrium.erodibility), grid, "surface.erodibility", run);
     fields.features = feature_cells(in.points, in.ridges, grid);
+    fields.strata = strata_of(recipe, grid);
     return fields;
 }
 
@@ -187,7 +188,10 @@ std::vector<Check> target_checks(surface::EquilibriumTerrain const& surface, sur
         stage_log.find({.kind = "target_missed",
                         .amount = surface.target_share * asked,
                         .text = fmt::format("surface.{} = {:.6g} {} cannot be reached with the {}: it is {:.4g} {}",
-                                            name, asked, unit, given ? "heights of the rivers" : "levels of the lakes",
+                                            name, asked, unit,
+                                            given       ? "heights of the rivers"
+                                            : by_levels ? "levels of the lakes"
+                                                        : "layers of rock",
                                             surface.target_share * asked, unit),
                         .key = fmt::format("surface.{}", name),
                         .numbers = {{"asked", asked, params.relief_m ? "m" : "deg"}}});
@@ -326,6 +330,7 @@ HowMade how_of(SolvedEquilibrium solved, Balance const& balance, std::int64_t ch
     how.p95_lowered_m = land.p95_lowered_m;
     how.rise = land.rise;
     how.steepness = land.steepness;
+    how.strata_shift_m = land.strata_shift_m;
     how.in_region = land.in_region;
     how.inflows = std::move(land.inflows);
     return balance.is_rebuilt ? HowMade(std::move(how)) : HowMade(static_cast<Equilibrium&&>(how));
@@ -413,12 +418,46 @@ std::vector<Check> checks_of(GroundInput const& in, SolvedEquilibrium const& sol
     return checks;
 }
 
+/// A place on the map from the grid's centre; none: the centre.
+std::array<double, 2> from_centre(std::optional<std::array<double, 2>> const& at, Grid const& grid) {
+    if (!at) {
+        return {0.0, 0.0};
+    }
+    return {(*at)[0] - (grid.west + 0.5 * static_cast<double>(grid.width) * grid.cell_m),
+            (*at)[1] - (grid.south() + 0.5 * static_cast<double>(grid.height) * grid.cell_m)};
+}
+
 } // namespace
 
 bool heights_are_invented(recipe::Recipe const& recipe) {
     return recipe::from_lines(recipe) && recipe::in_equilibrium(recipe) &&
            recipe.network->heights == recipe::Heights::graded && recipe.surface->equilibrium.like.empty() &&
            !(recipe.surface->dilate.relief_m > 0.0);
+}
+
+surface::Strata strata_of(recipe::Recipe const& recipe, Grid const& grid) {
+    surface::Strata strata;
+    strata.layers = recipe.layers;
+    strata.seed = recipe.seed;
+    recipe::StrataRecipe const wanted = recipe.strata.value_or(recipe::StrataRecipe{});
+    strata.repeats = wanted.repeat;
+    strata.base_m = wanted.base_m;
+    strata.dip_deg = wanted.dip_deg;
+    strata.strike_deg = wanted.strike_deg.value_or(
+        recipe.surface->equilibrium.strike_deg.value_or(surface::random_strike_deg(recipe.seed)));
+    strata.folds = {wanted.fold_m, wanted.fold_wave_m, wanted.fold_axis_deg.value_or(strata.strike_deg),
+                    wanted.plunge_deg};
+    if (wanted.dome_m != 0.0) {
+        auto const [east_m, north_m] = from_centre(wanted.dome_at, grid);
+        strata.domes = {{east_m, north_m, wanted.dome_m, wanted.dome_radius_m}};
+    }
+    if (wanted.fault_m != 0.0) {
+        auto const [east_m, north_m] = from_centre(wanted.fault_at, grid);
+        strata.faults = {{east_m, north_m, wanted.fault_strike_deg.value_or(strata.strike_deg), wanted.fault_m}};
+    }
+    strata.undulation_m = wanted.undulation_m;
+    strata.undulation_wave_m = wanted.undulation_wave_m;
+    return strata;
 }
 
 Raster<float> relative_uplift(recipe::Recipe const& recipe, Grid const& grid, Run const& run) {
