@@ -218,6 +218,7 @@ TerrainLevel prepared(LevelInput&& input, std::size_t number, TerrainLevel const
     copy_firmness(level, coarser);
     copy_grade(level, coarser);
     if (land.layers != nullptr) {
+        level.has_falls = true;
         level.strata =
             level_layers(level, land.layers->strata, land.grid, land.layers->conversion, land.layers->most_m, run);
     }

@@ -20,14 +20,29 @@ constexpr float above_river = 0.25F; // [cells of the level] allowed height abov
 constexpr float kept_share = 0.3F;   // share of its fall that a reach keeps when it is lowered for reaches upstream
 constexpr std::uint32_t great = 16;  // ratio of areas above which a river is not lowered for a brook
 
+/// By how much a river falls from cell n to about the second ring of cells: at a waterfall the gorge below it is lower
+/// than the river above. 0 where rivers are never so steep.
+float own_fall(TerrainLevel const& level, std::size_t n) {
+    if (!level.has_falls) {
+        return 0.0F;
+    }
+    constexpr int steps = 3;
+    RiverCells const& rivers = level.rivers;
+    std::size_t end = n;
+    for (int k = 0; k < steps && rivers.receiver[end] >= 0; ++k) {
+        end = static_cast<std::size_t>(rivers.receiver[end]);
+    }
+    return level.z[rivers.cell[n]] - level.z[rivers.cell[end]];
+}
+
 /// The largest height of a river cell at which it is not perched, from the second ring of cells around it.
-float height_by_ring(TerrainLevel const& level, std::uint32_t cell) {
+float height_by_ring(TerrainLevel const& level, std::size_t n) {
     float most = std::numeric_limits<float>::infinity();
-    each_of_second_ring(level, cell, [&](std::size_t n) {
-        bool const land = level.type[n] == CellType::land || level.type[n] == CellType::rim;
-        most = std::min(most, level.z[n] + (land ? above_land : above_river) * level.side);
+    each_of_second_ring(level, level.rivers.cell[n], [&](std::size_t i) {
+        bool const land = level.type[i] == CellType::land || level.type[i] == CellType::rim;
+        most = std::min(most, level.z[i] + (land ? above_land : above_river) * level.side);
     });
-    return most;
+    return most + own_fall(level, n);
 }
 
 // The largest heights of river cells, by number, at which neither they nor, within one reach, the cells upstream are
@@ -35,8 +50,9 @@ float height_by_ring(TerrainLevel const& level, std::uint32_t cell) {
 std::vector<float> greatest_heights(TerrainLevel const& level, EquilibriumLaw const& law) {
     RiverCells const& rivers = level.rivers;
     std::vector<float> most(rivers.cell.size());
-    std::transform(rivers.cell.begin(), rivers.cell.end(), most.begin(),
-                   [&](std::uint32_t i) { return height_by_ring(level, i); });
+    for (std::size_t n = 0; n < most.size(); ++n) {
+        most[n] = height_by_ring(level, n);
+    }
     std::vector<std::uint32_t> area(most.size()); // of the cell for which it is lowered
     std::transform(rivers.cell.begin(), rivers.cell.end(), area.begin(),
                    [&](std::uint32_t i) { return level.area[i]; });
@@ -176,11 +192,11 @@ std::vector<float> heights_by_lakes(TerrainLevel const& level, EquilibriumLaw co
     return heights_through(rivers, graded_falls(level, law), std::move(asked));
 }
 
-/// The height above which a river cell is perched.
-float highest_lawful(TerrainLevel const& level, std::uint32_t cell, float tangent) {
+/// The height above which river cell n is perched.
+float highest_lawful(TerrainLevel const& level, std::size_t n, float tangent) {
     float low = std::numeric_limits<float>::infinity();
-    each_of_second_ring(level, cell, [&](std::size_t n) { low = std::min(low, level.z[n]); });
-    return low + tangent * level.side;
+    each_of_second_ring(level, level.rivers.cell[n], [&](std::size_t i) { low = std::min(low, level.z[i]); });
+    return low + tangent * level.side + own_fall(level, n);
 }
 
 /// Lowers a river cell to a height, and cells downstream of it as far as necessary; does nothing if that would take too
@@ -201,9 +217,9 @@ void lower_reach(TerrainLevel& level, std::size_t from, float z, float step) {
     }
 }
 
-// Whether a river cell is above the lowest cell of its second ring by more than a tangent times a cell.
-bool is_perched(TerrainLevel const& level, std::uint32_t cell, float tangent) {
-    return level.z[cell] > highest_lawful(level, cell, tangent);
+// Whether river cell n is above the lowest cell of its second ring by more than a tangent times a cell.
+bool is_perched(TerrainLevel const& level, std::size_t n, float tangent) {
+    return level.z[level.rivers.cell[n]] > highest_lawful(level, n, tangent);
 }
 
 /// Whether lower_perched() would lower many cells in a row from river cell n on by half of what may be perched.
@@ -211,7 +227,7 @@ bool cuts_trench(TerrainLevel const& level, std::size_t n, float tangent) {
     constexpr float deep = 0.5F;  // relative to the tangent times a cell
     constexpr int most_deep = 24; // [cells] shorter ones become the heads of hollows
     RiverCells const& rivers = level.rivers;
-    float most = highest_lawful(level, rivers.cell[n], tangent) + deep * tangent * level.side;
+    float most = highest_lawful(level, n, tangent) + deep * tangent * level.side;
     for (int k = 0; level.z[rivers.cell[n]] > most; ++k, most -= least_tangent) {
         if (k == most_deep || leaves_grid(rivers, n)) {
             return true;
@@ -591,7 +607,7 @@ std::vector<std::int64_t> walled_cells(TerrainLevel const& level, float tangent,
     std::vector<std::int64_t> numbers;
     for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
         bool const counts = walls != Walls::by_lakes || rivers.hold_of(n) != Hold::none;
-        if (rivers.number[n] < 0 || !counts || !is_perched(level, rivers.cell[n], tangent)) {
+        if (rivers.number[n] < 0 || !counts || !is_perched(level, n, tangent)) {
             continue;
         }
         bool walled = false;
@@ -618,7 +634,7 @@ void lower_perched(TerrainLevel& level, float tangent, float step) {
         if (!leaves_grid(rivers, n) && rivers.level[n] == 0 && rivers.hold_of(n) != Hold::outlet) {
             float& z = level.z[rivers.cell[n]];
             float const least = level.z[rivers.cell[rivers.receiver[n]]] + step;
-            float const lawful = highest_lawful(level, rivers.cell[n], tangent);
+            float const lawful = highest_lawful(level, n, tangent);
             z = std::max(std::min(z, lawful), std::min(z, least));
             if (z > lawful) {
                 lower_reach(level, n, lawful, step);
@@ -647,7 +663,7 @@ void raise_below_perched(TerrainLevel& level, float tangent) {
     frame.height = level.height;
     RiverCells const& rivers = level.rivers;
     for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
-        if (rivers.number[n] < 0 || !is_perched(level, rivers.cell[n], tangent)) {
+        if (rivers.number[n] < 0 || !is_perched(level, n, tangent)) {
             continue;
         }
         Cell const at{rivers.cell[n] % level.width, rivers.cell[n] / level.width};
@@ -674,7 +690,7 @@ void raise_land_beside(TerrainLevel& level, float tangent) {
 }
 
 std::vector<std::int64_t> remove_perched_tips(TerrainLevel& level, float tangent, TipBanks banks) {
-    auto const perched = [&](std::size_t n) { return is_perched(level, level.rivers.cell[n], tangent); };
+    auto const perched = [&](std::size_t n) { return is_perched(level, n, tangent); };
     return remove_tips(level, marked_tips(level.rivers, upstream_of(level.rivers), longest_tip, perched), banks);
 }
 

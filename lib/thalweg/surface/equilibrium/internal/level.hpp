@@ -211,6 +211,7 @@ struct TerrainLevel {
     Cells<float> z;
     Rock rock;
     LevelLayers strata;
+    bool has_falls = false;              ///< rivers fall steeply over firm layers, and are not perched for that
     Cells<float> uplift;                 ///< empty: 1 everywhere
     Cells<std::int8_t> direction;        ///< towards the receiver, as in d8_steps, or no_direction
     std::optional<std::uint64_t> jitter; ///< seed of jitter_codes(); none: nodes lie at the centres of cells
