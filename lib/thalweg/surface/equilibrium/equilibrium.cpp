@@ -549,13 +549,14 @@ std::vector<float> kept_levels(Channels const& rivers, std::vector<float> const&
     return kept;
 }
 
-/// The least metres per unit at which levels of lakes are numbers that floats tell from the next ones.
-double least_metres(Channels const& rivers, double base_m) {
+/// The least metres per unit at which heights are numbers that floats tell from those a least step above: else
+/// directions of flow may form a circle.
+double least_metres(std::vector<float> const& heights_m, double base_m) {
     constexpr double most_units = 4096.0;
     double metres = 0.0;
-    for (std::size_t n = 0; n < rivers.lake_z.size(); ++n) {
-        if (!std::isnan(rivers.lake_z[n])) {
-            metres = std::max(metres, (static_cast<double>(rivers.lake_z[n]) - base_m) / most_units);
+    for (float const z : heights_m) {
+        if (!std::isnan(z)) {
+            metres = std::max(metres, (static_cast<double>(z) - base_m) / most_units);
         }
     }
     return metres;
@@ -696,7 +697,7 @@ EquilibriumTerrain terrain_with_levels(Channels const& rivers, EquilibriumFields
                                        HeightConversion const& raise, Run const& run) {
     RiversWithLevels const lakes(rivers, without.level, raise);
     without = {};
-    double const least = least_metres(rivers, 0.0);
+    double const least = least_metres(rivers.lake_z, 0.0);
     auto const solve = [&](double wanted) {
         double const metres = std::max(wanted, least);
         HeightConversion const conversion = lakes.conversion(metres);
@@ -714,14 +715,15 @@ EquilibriumTerrain terrain_with_levels(Channels const& rivers, EquilibriumFields
 EquilibriumTerrain terrain_with_heights(Channels const& rivers, EquilibriumFields const& fields,
                                         EquilibriumParams const& params, HeightConversion const& raise,
                                         Run const& run) {
-    double const least = least_metres(rivers, static_cast<double>(base_of(rivers, params.edge)));
+    auto const base_m = static_cast<double>(base_of(rivers, params.edge));
+    double const least = std::max(least_metres(rivers.lake_z, base_m), least_metres(rivers.z, base_m));
     auto const solve = [&](double metres) {
         return solved_terrain(rivers, fields, params, std::max(metres, least), run);
     };
     ScaledSolution held = params.bring_to_target
                               ? terrain_at_target(rivers.grid, fields.land, params, raise.metres, run, solve)
                               : solve(raise.metres);
-    HeightConversion const given{held.metres, static_cast<double>(base_of(rivers, params.edge)), raise.mean_tangent};
+    HeightConversion const given{held.metres, base_m, raise.mean_tangent};
     Window const window{rivers.grid, fields.land, held.land.margin};
     EquilibriumTerrain land =
         extract_terrain_with_heights(std::move(held.land.level), rivers, window, given, params.heights, run);
