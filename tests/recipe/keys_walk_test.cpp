@@ -224,6 +224,7 @@ std::map<std::string, Words> const values = {
     {"strata.fault_at", {"[500500, 4999500]"}},
     {"strata.undulation", {"45"}},
     {"layer.thickness", {"150"}},
+    {"layer.cliff", {"0.05"}},
     {"statistics.mean", {"450"}},
     {"statistics.std", {"80"}},
     {"statistics.max", {"[900, 40, 20]"}},

@@ -9,8 +9,9 @@
 namespace thalweg::recipe {
 namespace {
 
-/// Terrain around rivers that are still to be named. Real land is not equally steep everywhere (docs/relief_measures.md,
-/// slope_spread): uplift differs from place to place, its pattern by seed, and a few rivers run through lakes.
+/// Terrain around rivers that are still to be named. Real land is not equally steep everywhere
+/// (docs/relief_measures.md, slope_spread): uplift differs from place to place, its pattern by seed, and a few rivers
+/// run through lakes.
 Recipe recipe_around(Source source, std::int64_t width, std::int64_t height) {
     Recipe recipe;
     recipe.grid.width = width;
