@@ -131,8 +131,8 @@ def lines(name, change):
 
 
 def raised(text):
-    """The vertices of an OBJ, by a step of 16 bits."""
-    return [f"v {x} {float(y) + 0.01} {z}\n" if kind == "v" else line
+    """The vertices of an OBJ, by more than heights may differ."""
+    return [f"v {x} {float(y) + 0.03} {z}\n" if kind == "v" else line
             for line in text for kind, x, y, z in [(line.split() + [""] * 4)[:4]]]
 
 
