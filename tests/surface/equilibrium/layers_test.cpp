@@ -384,6 +384,22 @@ TEST(EquilibriumInLayers, HasTheReliefAsked) {
     }
 }
 
+// A mean slope, or a greatest steepness of main stems, is that of rock without layers: a plateau has no such slope.
+TEST(EquilibriumInLayers, WithoutAReliefHeightsHaveTheScaleOfRockWithoutLayers) {
+    EquilibriumParams params;
+    params.region = 1.0;
+    params.mean_slope_deg = 20.0;
+    EquilibriumTerrain const plain = equilibrium(two_rivers(), {}, params);
+    EquilibriumTerrain const free = land_of(canyon(), params).terrain;
+    EXPECT_NEAR(free.rise / plain.rise, 1.0, 0.25);
+    EXPECT_FALSE(free.is_bounded);
+    params.steepness = 0.5 * plain.steepness;
+    EquilibriumTerrain const bounded = land_of(canyon(), params).terrain;
+    EXPECT_TRUE(bounded.is_bounded);
+    EXPECT_NEAR(bounded.rise / plain.rise, 0.5, 0.15);
+    EXPECT_LT(bounded.target_share, 0.9);
+}
+
 TEST(EquilibriumInLayers, ThreadsDoNotMatter) {
     EquilibriumParams params;
     params.relief_m = 400.0;

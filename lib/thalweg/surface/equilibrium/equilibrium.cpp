@@ -508,11 +508,12 @@ EquilibriumSolution solved(Channels const& rivers, EquilibriumFields const& fiel
         if (number == 0 && region.level > 0) {
             inflows = inflows_of(level, window.grid, window.margin);
         }
-        if (number == 0) {
+        bool const is_enough = number > 0 && least_cells > 0 && level.cells() >= least_cells;
+        if (number == 0 || is_enough) {
             steepness = stem_steepness(level, window.grid.cell_m);
         }
         free_finished_memory(level);
-        if (number > 0 && least_cells > 0 && level.cells() >= least_cells) {
+        if (is_enough) {
             return {std::move(level), {}, 0, land.margin, false, {}, steepness};
         }
     }
@@ -797,7 +798,8 @@ double metres_without_layers(EquilibriumSolution const& land, Window const& wind
 }
 
 /// Terrain in layers of rock around graded rivers. Layers are in metres and the solver is not, so that the number of
-/// metres per unit that gives the target is searched for on a coarse level, and corrected on the finest.
+/// metres per unit that gives a relief is searched for on a coarse level, and corrected on the finest. A mean slope and
+/// a greatest steepness are those of rock without layers: a plateau has no such slope, whatever its height.
 EquilibriumTerrain terrain_in_layers(Channels const& rivers, EquilibriumFields const& fields,
                                      EquilibriumParams const& params, Run const& run) {
     constexpr int most_solves = 8;    // of a coarse level
@@ -810,6 +812,9 @@ EquilibriumTerrain terrain_in_layers(Channels const& rivers, EquilibriumFields c
     std::int64_t const margin = coarse.margin;
     Window const window{rivers.grid, fields.land, margin};
     double metres = metres_without_layers(coarse, window, params, run);
+    bool const is_bounded = params.steepness && !params.relief_m && metres * coarse.steepness > *params.steepness;
+    metres = is_bounded ? *params.steepness / coarse.steepness : metres;
+    double const share = portable::exp(off_target(coarse, window, metres, params, run));
     HeightConversion const unit{1.0, 0.0, 0.0};
     Raster<float> const without = coarse_terrain(coarse.level, window, &unit, params, run);
     double highest = 0.0;
@@ -823,7 +828,8 @@ EquilibriumTerrain terrain_in_layers(Channels const& rivers, EquilibriumFields c
         return solved(rivers, fields, params, &layers.conversion, with, &layers, least_cells);
     };
     Zero found{portable::log(metres), 0.8};
-    if (params.bring_to_target) {
+    bool const searches = params.relief_m && params.bring_to_target;
+    if (searches) {
         found = zero_of(found, most_solves, 0.5 * near, [&](double at) {
             EquilibriumSolution const land = solve(portable::exp(at), cells_to_search, quiet);
             return off_target(land, window, portable::exp(at), params, run);
@@ -831,7 +837,7 @@ EquilibriumTerrain terrain_in_layers(Channels const& rivers, EquilibriumFields c
     }
     EquilibriumSolution land;
     double best = std::numeric_limits<double>::infinity();
-    zero_of(found, params.bring_to_target ? most_of_finest : 1, near, [&](double at) {
+    zero_of(found, searches ? most_of_finest : 1, near, [&](double at) {
         EquilibriumSolution next = solve(portable::exp(at), 0, land.level.z.empty() ? run : quiet);
         double const off = off_target(next, window, portable::exp(at), params, run);
         if (std::fabs(off) < best) {
@@ -841,10 +847,14 @@ EquilibriumTerrain terrain_in_layers(Channels const& rivers, EquilibriumFields c
         }
         return off;
     });
+    double const steepness = land.steepness * metres;
     HeightConversion const raise{metres, -lowest_end_of(land.level, rivers, window) * metres,
                                  mean_tangent(land.level, window, metres, run)};
     EquilibriumTerrain out = graded_terrain(std::move(land), rivers, fields, params, raise, run);
     out.strata_shift_m = -raise.base_m;
+    out.steepness = steepness;
+    out.is_bounded = is_bounded;
+    out.target_share = params.relief_m ? out.target_share : share;
     return out;
 }
 

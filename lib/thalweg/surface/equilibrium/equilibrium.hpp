@@ -73,7 +73,8 @@ struct EquilibriumFields {
 /// Options of equilibrium().
 struct EquilibriumParams {
     double theta = 0.38;            ///< [0.1, 0.9] concavity index: slope ~ area^-theta
-    double mean_slope_deg = 25.0;   ///< (0, 60] mean over cells (Horn's slope), unless relief_m is set
+    double mean_slope_deg = 25.0;   ///< (0, 60] mean over cells (Horn's slope), unless relief_m is set; in layers that
+                                    ///< which rock without layers would have
     std::optional<double> relief_m; ///< [m] > 0, highest minus lowest cell; replaces the mean slope
     /// [m^0.9] > 0 greatest normalised steepness of the main stems of graded rivers, for a concavity of 0.45: where the
     /// mean slope makes them steeper, all heights are lowered to it; none: not bounded. Nothing with relief_m.
