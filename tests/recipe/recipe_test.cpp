@@ -130,6 +130,11 @@ TEST(Recipe, UnknownKeysAreNamedWithTheNearestOne) {
              {"[network]\n[surface]\n[[patch]]\nsorce = \"a\"\n", "Did you mean 'patch.source'?"}}) {
         EXPECT_TRUE(has(fault_of(toml), words));
     }
+    std::string many = "[network]\n[surface]\n";
+    for (int k = 0; k < 256; ++k) {
+        many += "[[layer]]\n";
+    }
+    EXPECT_TRUE(has(fault_of(many), "256 tables [[layer]]: 255 at most"));
     std::string const all = fault_of("[grid]\ncell = 0\nwidth = \"wide\"\n[network.dla]\nsticking = 2\nvisits = 0\n");
     EXPECT_TRUE(has(all, "grid.cell: 0 is", "grid.width: an integer", "sticking: 2 is", "visits: 0 is")) << "at once";
 }

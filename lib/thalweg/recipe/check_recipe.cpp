@@ -218,6 +218,10 @@ void check_strata(Recipe const& recipe, Faults& faults) {
     if (!in_layers(recipe)) {
         return;
     }
+    constexpr std::size_t most = 255; // numbers in strata.tif
+    add_if(recipe.layers.size() > most, faults,
+           fmt::format("{} tables [[layer]]: {} at most; strata.repeat = true lays them again and again",
+                       recipe.layers.size(), most));
     constexpr char const* with = "[[layer]] does not go with {} yet: {}";
     Heights const heights = recipe.network->heights;
     add_if(heights != Heights::automatic && heights != Heights::graded, faults,
