@@ -186,11 +186,22 @@ constexpr int pulled_after = 2; // rounds of the finest level, which has its val
 // factor of the tangent that finally counts as perched: such tips will not be lowered any more
 constexpr float of_perched = 3.0F;
 
-/// Layers of rock, and what the solver's units are in metres.
+/// Layers of rock, which are in metres, and what the solver's units are. Metres per unit change while levels are solved
+/// where land is to have a relief.
 struct LayersOfLand {
     Strata const& strata;
-    HeightConversion conversion;
-    double most_m; ///< greatest height of land
+    bool has_target;
+    double metres; ///< per unit
+    /// greatest height of the land without layers: in metres for the first guess, and in units
+    double highest_m;
+    double highest;
+
+    HeightConversion conversion() const { return {metres, 0.0, 0.0}; }
+    /// [m] No slope between closed edges climbs beyond.
+    double most_m() const {
+        constexpr double far_above = 2.0;
+        return far_above * std::max(highest_m, highest * metres);
+    }
 };
 
 /// What the land of levels is like.
@@ -220,7 +231,7 @@ TerrainLevel prepared(LevelInput&& input, std::size_t number, TerrainLevel const
     if (land.layers != nullptr) {
         level.has_falls = true;
         level.strata =
-            level_layers(level, land.layers->strata, land.grid, land.layers->conversion, land.layers->most_m, run);
+            level_layers(level, land.layers->strata, land.grid, land.layers->conversion(), land.layers->most_m(), run);
     }
     level.jitter = params.seed;
     run.check();
@@ -266,15 +277,23 @@ TerrainLevel of_region(TerrainLevel const& level) {
     return around;
 }
 
+/// [log] the ratio of a level's relief or mean slope to its target.
+double off_target(TerrainLevel const& level, Window const& window, double metres, EquilibriumParams const& params,
+                  Run const& run) {
+    double const share = level.side > 1.0F ? coarse_share_of_target(level, window, metres, params, run)
+                                           : share_of_target(level, window, metres, params, run);
+    return portable::log(std::max(share, 1e-6));
+}
+
 /// Computes the heights of a level from those of the coarser one.
 class Solver {
 public:
     /// \param features heights above the first river's end, in units
     /// \param extent [finest cells] of all levels
-    /// \param metres per unit, where it is known; 0: what gives the target
+    /// \param layers null: rock without layers
     Solver(EquilibriumParams const& params, Channels const& rivers, std::vector<FeatureCell> const& features,
-           Window const& window, double extent, double metres, Run const& run)
-        : params_(params), rivers_(rivers), features_(features), window_(window), run_(run), metres_(metres),
+           Window const& window, double extent, LayersOfLand* layers, Run const& run)
+        : params_(params), rivers_(rivers), features_(features), window_(window), run_(run), layers_(layers),
           law_(params, window.grid.cell_m, extent) {}
 
     /// The frame is set from the nearest rivers where the region has no information.
@@ -292,7 +311,9 @@ public:
         flood_terrain(level);
         KnownHeights const known = number == 0 ? known_heights(level, features_, window_.grid) : KnownHeights{};
         std::optional<PullToHeights> heights;
-        int const rounds = rounds_of(number, levels) + (known.cell.empty() ? 0 : more_for_heights);
+        int rounds = rounds_of(number, levels) + (known.cell.empty() ? 0 : more_for_heights);
+        int more_for_target = most_for_target;
+        off_before_ = std::numeric_limits<double>::quiet_NaN();
         bool const given = params_.heights != RiverHeights::graded && !level.rivers.asked.empty();
         if (number == 0 && !given && params_.heads == Heads::kept) {
             take(remove_touching_tips(level));
@@ -339,6 +360,11 @@ public:
             raise_crests(level, pull.floor);
             relax_terrain(level, law_.land, pull, run_);
             change_erodibility_at_crests(level, run_);
+            if (layers_ != nullptr && layers_->has_target) {
+                int const more = follow_target(level, rounds - round, number == 0 ? more_for_target : 0);
+                rounds += more;
+                more_for_target -= more;
+            }
             if (by_turns && rounds - round >= to_come_down) {
                 // rivers with heights or lakes stand where they are told to
                 reduce_erodibility(level, law_, given || !level.rivers.hold.empty() ? 2.0F : 0.3F);
@@ -359,6 +385,42 @@ private:
         auto const part = static_cast<int>(number * number);
         auto const all = static_cast<int>((levels - 1) * (levels - 1));
         return all == 0 ? coarse_rounds : fine_rounds + (coarse_rounds - fine_rounds) * part / all;
+    }
+
+    /// Changes metres per unit by how far land is off its target, and by how far it goes on to move by itself: in
+    /// dipping rock it takes rounds to follow.
+    /// \param most_rounds that may be added
+    /// \return rounds that it needs beyond those that are left
+    int follow_target(TerrainLevel& level, int rounds_left, int most_rounds) {
+        constexpr double near = 0.035; // [log]
+        constexpr double near_at_last = 0.045;
+        constexpr double growth = 0.8; // of relief with metres per unit, about
+        constexpr double ahead = 2.0;  // rounds
+        constexpr double widest = 0.3; // step
+        bool const is_last = rounds_left == 1;
+        if (!is_last && rounds_left <= settled_rounds) {
+            return 0;
+        }
+        double const off = off_target(level, window_, layers_->metres, params_, run_);
+        double const before = std::isnan(off_before_) ? off : off_before_;
+        off_before_ = off;
+        double const to_come = off + ahead * (off - before);
+        bool const is_near =
+            is_last ? std::fabs(off) <= near_at_last : std::max(std::fabs(off), std::fabs(to_come)) <= near;
+        if (is_near || (is_last && most_rounds == 0)) {
+            return 0;
+        }
+        double const scale = portable::exp(std::clamp(to_come / growth, -widest, widest));
+        layers_->metres /= scale;
+        for (float& z : level.z) {
+            z *= static_cast<float>(scale);
+        }
+        level.strata.scale(scale);
+        level.strata.most = layers_->most_m() / layers_->metres;
+        if (is_last) {
+            return std::min(most_rounds, settled_rounds + 1);
+        }
+        return rounds_left == to_come_down + 2 && most_rounds > late_rounds ? 1 : 0;
     }
 
     /// Removes tips as late as the terrain can still come down where they were.
@@ -394,9 +456,12 @@ private:
     }
 
     void remove_tips(TerrainLevel& level) {
-        HeightConversion const raise = metres_ > 0.0
-                                           ? HeightConversion{metres_, 0.0, mean_tangent(level, window_, metres_, run_)}
-                                           : height_conversion_for(level, rivers_, window_, params_, run_);
+        HeightConversion raise{};
+        if (layers_ != nullptr) {
+            raise = {layers_->metres, 0.0, mean_tangent(level, window_, layers_->metres, run_)};
+        } else {
+            raise = height_conversion_for(level, rivers_, window_, params_, run_);
+        }
         perched_ = static_cast<float>(raise.mean_tangent * window_.grid.cell_m / raise.metres);
         level.bank_rise = steepest_bank * perched_ * level.side;
         if (params_.heads == Heads::kept) {
@@ -422,15 +487,19 @@ private:
 
     static constexpr int to_come_down =
         3; ///< rounds that the terrain needs where a river was removed or its erodibility lowered
+    static constexpr int late_rounds = 9;      ///< more rounds of a level that are kept for its end
+    static constexpr int settled_rounds = 2;   ///< the last ones, in which metres per unit stay
+    static constexpr int most_for_target = 15; ///< more rounds of a level
 
     EquilibriumParams const& params_;
     Channels const& rivers_;
     std::vector<FeatureCell> const& features_;
     Window const& window_;
     Run const& run_;
-    double metres_;
+    LayersOfLand* layers_;
     EquilibriumLaw law_;
-    float perched_ = 0.0F; ///< tangent above which river cells count as perched, in the solver's units
+    double off_before_ = 0.0; ///< [log] from the target, a round before
+    float perched_ = 0.0F;    ///< tangent above which river cells count as perched, in the solver's units
     std::vector<std::int64_t> shortened_;
     std::int64_t graded_heads_ = 0;
 };
@@ -479,14 +548,13 @@ double extent_of(std::vector<LevelInput> const& levels) {
 /// \param layers null: rock without layers
 /// \param least_cells a level that has as many is the last one; 0: the finest is
 EquilibriumSolution solved(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
-                           HeightConversion const* conversion, Run const& run, LayersOfLand const* layers = nullptr,
+                           HeightConversion const* conversion, Run const& run, LayersOfLand* layers = nullptr,
                            std::int64_t least_cells = 0) {
     PaddedTerrain land = padded(rivers, fields, params);
     Region const region = region_around(rivers, fields, params);
     std::vector<LevelInput> levels = level_inputs(land, region, rivers.grid, params.seed);
     Window const window{rivers.grid, fields.land, land.margin};
-    Solver solver(params, rivers, fields.features, window, extent_of(levels),
-                  layers != nullptr ? layers->conversion.metres : 0.0, run);
+    Solver solver(params, rivers, fields.features, window, extent_of(levels), layers, run);
     ErodibilityParams const rock = erodibility_of(params, window);
     TerrainLevel level;
     TerrainLevel around; // the region's finest level
@@ -499,7 +567,8 @@ EquilibriumSolution solved(Channels const& rivers, EquilibriumFields const& fiel
             around.z.empty() || !params.inflow ? RegionFrame{} : frame_by_region(level, around, params.seed);
         solver.solve(level, number, levels.size(), frame);
         if (run.preview && shows_terrain(level, rivers.grid)) {
-            run.preview(coarse_terrain(level, window, conversion, params, run), false);
+            HeightConversion const of_layers = layers != nullptr ? layers->conversion() : HeightConversion{};
+            run.preview(coarse_terrain(level, window, layers != nullptr ? &of_layers : conversion, params, run), false);
         }
         if (region.level > 0 && number == region.level) {
             accumulate_areas(level, run);
@@ -732,89 +801,37 @@ EquilibriumTerrain terrain_with_heights(Channels const& rivers, EquilibriumField
     return land;
 }
 
-constexpr std::int64_t cells_to_search = 20'000; // of a coarse level at least
-
-/// [log] the ratio of a solution's relief or mean slope to its target.
-double off_target(EquilibriumSolution const& land, Window const& window, double metres, EquilibriumParams const& params,
-                  Run const& run) {
-    double const share = land.level.side > 1.0F ? coarse_share_of_target(land.level, window, metres, params, run)
-                                                : share_of_target(land.level, window, metres, params, run);
-    return portable::log(std::max(share, 1e-6));
-}
-
-/// Where a function that grows is about 0, and its growth there.
-struct Zero {
-    double at = 0.0;
-    double growth = 1.0;
-};
-
-/// Brackets the zero of a function that grows, then narrows the bracket by false position.
-/// \param first a guess
-/// \param most calls of the function
-/// \param near absolute value that will do
-template <class Off> Zero zero_of(Zero first, int most, double near, Off off) {
-    constexpr double widest = 1.5; // step
-    constexpr double least_growth = 0.15;
-    constexpr double most_growth = 3.0;
-    std::optional<std::pair<double, double>> low; // where, value
-    std::optional<std::pair<double, double>> high;
-    Zero best = first;
-    double least = std::numeric_limits<double>::infinity();
-    double at = first.at;
-    double growth = first.growth;
-    std::pair<double, double> before;
+/// Metres per unit that give rock without layers its target, on a coarse level.
+double metres_without_layers(TerrainLevel const& level, Window const& window, EquilibriumParams const& params,
+                             Run const& run) {
+    constexpr int most = 24;
+    constexpr double near = 1e-3;  // [log]
+    constexpr double widest = 1.0; // step, of a function that grows by about as much
+    double at = portable::log(window.grid.cell_m);
     for (int k = 0; k < most; ++k) {
-        double const value = off(at);
-        if (std::fabs(value) < least) {
-            best.at = at;
-            least = std::fabs(value);
-        }
-        (value < 0.0 ? low : high) = {at, value};
-        if (low && high) {
-            double const share = low->second / (low->second - high->second);
-            at = low->first + std::clamp(share, 0.2, 0.8) * (high->first - low->first);
-            growth = (high->second - low->second) / (high->first - low->first);
-        } else {
-            if (k > 0) {
-                growth = std::clamp((value - before.second) / (at - before.first), least_growth, most_growth);
-            }
-            before = {at, value};
-            at += std::clamp(-value / growth, -widest, widest);
-        }
-        best.growth = std::clamp(growth, least_growth, most_growth);
-        if (least <= near) {
+        double const off = off_target(level, window, portable::exp(at), params, run);
+        if (std::fabs(off) <= near) {
             break;
         }
+        at -= std::clamp(off, -widest, widest);
     }
-    return best;
-}
-
-/// Metres per unit that give rock without layers its target, on a coarse level.
-double metres_without_layers(EquilibriumSolution const& land, Window const& window, EquilibriumParams const& params,
-                             Run const& run) {
-    constexpr int steps = 24;
-    auto const off = [&](double at) { return off_target(land, window, portable::exp(at), params, run); };
-    return portable::exp(zero_of({portable::log(window.grid.cell_m), 1.0}, steps, 1e-3, off).at);
+    return portable::exp(at);
 }
 
 /// Terrain in layers of rock around graded rivers. Layers are in metres and the solver is not, so that the number of
-/// metres per unit that gives a relief is searched for on a coarse level, and corrected on the finest. A mean slope and
-/// a greatest steepness are those of rock without layers: a plateau has no such slope, whatever its height.
+/// metres per unit that gives a relief is found while levels are solved. A mean slope and a greatest steepness are
+/// those of rock without layers: a plateau has no such slope, whatever its height.
 EquilibriumTerrain terrain_in_layers(Channels const& rivers, EquilibriumFields const& fields,
                                      EquilibriumParams const& params, Run const& run) {
-    constexpr int most_solves = 8;    // of a coarse level
-    constexpr int most_of_finest = 4; // of the finest
-    constexpr double near = 0.035;    // [log] of the target
-    constexpr double far_above = 2.0; // of the land without layers: no slope between closed edges climbs beyond
+    constexpr std::int64_t cells_without = 20'000; // of the coarse level that is solved without layers, at least
     Run quiet = run;
     quiet.preview = nullptr;
-    EquilibriumSolution coarse = solved(rivers, fields, params, nullptr, quiet, nullptr, cells_to_search);
-    std::int64_t const margin = coarse.margin;
-    Window const window{rivers.grid, fields.land, margin};
-    double metres = metres_without_layers(coarse, window, params, run);
-    bool const is_bounded = params.steepness && !params.relief_m && metres * coarse.steepness > *params.steepness;
-    metres = is_bounded ? *params.steepness / coarse.steepness : metres;
-    double const share = portable::exp(off_target(coarse, window, metres, params, run));
+    EquilibriumSolution coarse = solved(rivers, fields, params, nullptr, quiet, nullptr, cells_without);
+    Window const window{rivers.grid, fields.land, coarse.margin};
+    double const wanted = metres_without_layers(coarse.level, window, params, run);
+    bool const is_bounded = params.steepness && !params.relief_m && wanted * coarse.steepness > *params.steepness;
+    double const guess = is_bounded ? *params.steepness / coarse.steepness : wanted;
+    double const share = portable::exp(off_target(coarse.level, window, guess, params, run));
     HeightConversion const unit{1.0, 0.0, 0.0};
     Raster<float> const without = coarse_terrain(coarse.level, window, &unit, params, run);
     double highest = 0.0;
@@ -822,31 +839,9 @@ EquilibriumTerrain terrain_in_layers(Channels const& rivers, EquilibriumFields c
         highest = std::isnan(z) ? highest : std::max(highest, static_cast<double>(z));
     }
     coarse = {};
-    double const highest_m = highest * metres;
-    auto const solve = [&](double at, std::int64_t least_cells, Run const& with) {
-        LayersOfLand const layers{fields.strata, {at, 0.0, 0.0}, far_above * std::max(highest_m, highest * at)};
-        return solved(rivers, fields, params, &layers.conversion, with, &layers, least_cells);
-    };
-    Zero found{portable::log(metres), 0.8};
-    bool const searches = params.relief_m && params.bring_to_target;
-    if (searches) {
-        found = zero_of(found, most_solves, 0.5 * near, [&](double at) {
-            EquilibriumSolution const land = solve(portable::exp(at), cells_to_search, quiet);
-            return off_target(land, window, portable::exp(at), params, run);
-        });
-    }
-    EquilibriumSolution land;
-    double best = std::numeric_limits<double>::infinity();
-    zero_of(found, searches ? most_of_finest : 1, near, [&](double at) {
-        EquilibriumSolution next = solve(portable::exp(at), 0, land.level.z.empty() ? run : quiet);
-        double const off = off_target(next, window, portable::exp(at), params, run);
-        if (std::fabs(off) < best) {
-            best = std::fabs(off);
-            land = std::move(next);
-            metres = portable::exp(at);
-        }
-        return off;
-    });
+    LayersOfLand layers{fields.strata, params.relief_m && params.bring_to_target, guess, highest * guess, highest};
+    EquilibriumSolution land = solved(rivers, fields, params, nullptr, run, &layers);
+    double const metres = layers.metres;
     double const steepness = land.steepness * metres;
     HeightConversion const raise{metres, -lowest_end_of(land.level, rivers, window) * metres,
                                  mean_tangent(land.level, window, metres, run)};

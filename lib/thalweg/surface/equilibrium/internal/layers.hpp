@@ -31,6 +31,20 @@ struct LevelLayers {
     float river_cap = 1.0F;                                ///< greatest tangent of given rivers
 
     bool empty() const { return layers.empty(); }
+
+    /// Makes everything but the greatest height of land so many times as high.
+    void scale(double factor) {
+        auto const small = static_cast<float>(factor);
+        for (LevelLayer& layer : layers) {
+            layer.top *= factor;
+            layer.cap *= factor;
+        }
+        for (float& height : bed) {
+            height *= small;
+        }
+        steepest *= small;
+        river_cap *= small;
+    }
 };
 
 /// The layer of a place above the bed; at a contact the upper one.
