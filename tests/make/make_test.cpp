@@ -166,8 +166,12 @@ TEST(OutputFiles, StrataAtTheSurface) {
     strata.base_m = -10.0;
     strata.dip_deg = 4.0;
     strata.strike_deg = 30.0;
-    Raster<std::uint8_t> const asked = surface::layers_at(io::read_dem(scratch / "out/dem.tif"), strata,
-                                                          report["equilibrium"]["strata_shift_m"].get<double>());
+    Raster<float> const dem = io::read_dem(scratch / "out/dem.tif");
+    Raster<float> const bed =
+        surface::bed_heights(dem.grid(), strata, report["equilibrium"]["strata_shift_m"].get<double>());
+    Raster<float> const written = io::read_dem(scratch / "out/strata_bed.tif");
+    EXPECT_TRUE(std::equal(bed.values().begin(), bed.values().end(), written.values().begin()));
+    Raster<std::uint8_t> const asked = surface::layers_at(dem, bed, strata);
     std::array<std::int64_t, 4> cells{};
     for (std::int64_t i = 0; i < codes.cells(); ++i) {
         EXPECT_EQ(codes[i], static_cast<float>(asked[i])) << i;
@@ -175,6 +179,8 @@ TEST(OutputFiles, StrataAtTheSurface) {
     }
     EXPECT_EQ(cells[0], 0);
     EXPECT_GT(std::min({cells[1], cells[2], cells[3]}), codes.cells() / 100);
+    EXPECT_DOUBLE_EQ(report["equilibrium"]["layer_shares"][1].get<double>(),
+                     static_cast<double>(cells[2]) / static_cast<double>(codes.cells()));
     for (Check const& check : made.assessment.checks) {
         EXPECT_TRUE(check.ok) << check.name << " " << check.value;
     }

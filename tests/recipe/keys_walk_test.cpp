@@ -90,7 +90,12 @@ std::vector<BaseRecipe> const bases = {
          "undulation = 20\nundulation_wave = 600\ndip = 8\n"
          "[[layer]]\nthickness = 60\nstrength = 0.5\ncliff = 0.5\n[[layer]]\nthickness = 40\nstrength = 8\ncliff = 5\n"
          "[[layer]]\nthickness = 90\nstrength = 0.4\ncliff = 0.6\n",
-     {"strata.", "layer."}},
+     {"strata.", "layer.", "-strata.cap_share"}},
+    {"EquilibriumCapRock",
+     dla + equilibrium +
+         "[strata]\nbase = -10\n[[layer]]\nthickness = 40\nstrength = 0.5\ncliff = 0.5\n[[layer]]\nthickness = 30\n"
+         "strength = 8\ncliff = 5\n[[layer]]\nstrength = 0.2\ncliff = 0.4\n",
+     {"strata.cap_share"}},
     {"EquilibriumDetail", dla + equilibrium + "[detail]\nsigma = 20\n", {"detail.", "-detail.method"}},
     {"DilateHarmonic",
      dla + surface("dilate"),
@@ -212,6 +217,7 @@ std::map<std::string, Words> const values = {
     {"surface.sweeps", {"50"}},
     {"surface.noise", {"20"}},
     {"strata.base", {"-30"}},
+    {"strata.cap_share", {"0.2"}},
     {"strata.dip", {"20"}},
     {"strata.strike", {"70"}},
     {"strata.fold", {"90"}},

@@ -95,7 +95,9 @@ TEST(Presets, LeaveLayersAsTheyAreSet) {
     EXPECT_EQ(values.at("surface.roughness"), "0.35");
     Recipe const steep = with_preset(recipe_of("mean_slope = 12\n"), "canyonlands");
     EXPECT_EQ(steep.layers.size(), 5U);
-    EXPECT_EQ(steep.surface->dilate.relief_m, 0.0) << "the mean slope is set";
+    EXPECT_EQ(steep.strata->cap_share, std::nullopt) << "the mean slope is set";
+    EXPECT_EQ(with_preset(recipe_of("relief = 300\n"), "mesa").strata->cap_share, std::nullopt);
+    EXPECT_EQ(with_preset(default_recipe(), "mesa").strata->cap_share, 0.35);
     EXPECT_NO_THROW(check_recipe(steep));
     Recipe added = with_preset(default_recipe(), "mesa");
     set_key(added, "layer.3.strength=9");

@@ -12,6 +12,7 @@
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/draw/internal/canvas.hpp>
+#include <thalweg/draw/internal/map.hpp>
 #include <thalweg/draw/internal/sections.hpp>
 
 namespace thalweg::draw {
@@ -174,8 +175,114 @@ std::vector<std::vector<Vec2>> stretches_of(std::vector<Vec2> const& points, Plo
     return out;
 }
 
-void draw_panel(Cairo* sheet, Plot const& plot, Section const& section, Scales const& scales, std::size_t number_of,
-                double unit) {
+Colour colour_of_layer(double strength) {
+    constexpr Colour soft{0.95, 0.90, 0.78};
+    constexpr Colour firm{0.58, 0.40, 0.26};
+    constexpr double softest = 0.03;
+    constexpr double firmest = 12.0;
+    double const share = std::log(std::max(strength, softest) / softest) / std::log(firmest / softest);
+    return mix(soft, firm, std::min(share, 1.0));
+}
+
+/// Fills the ground below a line by layers of rock, and draws their contacts.
+class RockBelow {
+public:
+    /// \param low_m least height that is seen
+    RockBelow(Section const& section, LayersBelow const& below, double low_m) : section_(section) {
+        double const first = section.points.front().x;
+        double const length = section.points.back().x - first;
+        for (Vec2 const p : section.points) {
+            double const share = length > 0.0 ? (p.x - first) / length : 0.0;
+            bed_.push_back(below.bed_m({section.begin.x + (section.end.x - section.begin.x) * share,
+                                        section.begin.y + (section.end.y - section.begin.y) * share}));
+        }
+        double low = 0.0;
+        double high = 0.0;
+        for (std::size_t k = 0; k < bed_.size(); ++k) {
+            low = std::min(low, low_m - bed_[k]);
+            high = std::max(high, std::isfinite(section.points[k].y) ? section.points[k].y - bed_[k] : 0.0);
+        }
+        layers_ = below.layers(low, high);
+    }
+
+    void draw(Cairo* sheet, Plot const& plot, double line_width) const {
+        double bottom = -std::numeric_limits<double>::infinity();
+        for (LayerBelow const& layer : layers_) {
+            for (auto const& [begin, end] : runs()) {
+                fill(sheet, plot, begin, end, bottom, layer);
+            }
+            bottom = layer.top_m;
+        }
+        for (LayerBelow const& layer : layers_) {
+            draw_contact(sheet, plot, layer.top_m, line_width);
+        }
+    }
+
+private:
+    /// Points between gaps.
+    std::vector<std::pair<std::size_t, std::size_t>> runs() const {
+        std::vector<std::pair<std::size_t, std::size_t>> out;
+        for (std::size_t k = 0; k < section_.points.size(); ++k) {
+            if (!std::isfinite(section_.points[k].y)) {
+                continue;
+            }
+            if (out.empty() || out.back().second != k) {
+                out.emplace_back(k, k);
+            }
+            out.back().second = k + 1;
+        }
+        return out;
+    }
+
+    void fill(Cairo* sheet, Plot const& plot, std::size_t begin, std::size_t end, double bottom,
+              LayerBelow const& layer) const {
+        auto const height = [&](std::size_t k, double above_bed) {
+            return std::clamp(bed_[k] + above_bed, plot.y_low, std::max(plot.y_low, section_.points[k].y));
+        };
+        bool is_seen = false;
+        for (std::size_t k = begin; k < end; ++k) {
+            is_seen = is_seen || height(k, layer.top_m) > height(k, bottom);
+            Vec2 const at = plot.at(section_.points[k].x, height(k, layer.top_m));
+            k == begin ? cairo_move_to(sheet, at.x, at.y) : cairo_line_to(sheet, at.x, at.y);
+        }
+        for (std::size_t k = end; k-- > begin;) {
+            Vec2 const at = plot.at(section_.points[k].x, height(k, bottom));
+            cairo_line_to(sheet, at.x, at.y);
+        }
+        cairo_close_path(sheet);
+        if (!is_seen) {
+            cairo_new_path(sheet);
+            return;
+        }
+        set_colour(sheet, colour_of_layer(layer.strength));
+        cairo_fill(sheet);
+    }
+
+    void draw_contact(Cairo* sheet, Plot const& plot, double top, double line_width) const {
+        constexpr Colour contact{0.42, 0.30, 0.20, 0.6};
+        bool is_drawing = false;
+        for (std::size_t k = 0; k < section_.points.size(); ++k) {
+            double const z = bed_[k] + top;
+            Vec2 const p = section_.points[k];
+            bool const is_below = std::isfinite(p.y) && z < p.y && z > plot.y_low;
+            if (is_below) {
+                Vec2 const at = plot.at(p.x, z);
+                is_drawing ? cairo_line_to(sheet, at.x, at.y) : cairo_move_to(sheet, at.x, at.y);
+            }
+            is_drawing = is_below;
+        }
+        set_colour(sheet, contact);
+        cairo_set_line_width(sheet, line_width);
+        cairo_stroke(sheet);
+    }
+
+    Section const& section_;
+    std::vector<LayerBelow> layers_;
+    std::vector<double> bed_; ///< by point
+};
+
+void draw_panel(Cairo* sheet, Plot const& plot, Section const& section, LayersBelow const& below, Scales const& scales,
+                std::size_t number_of, double unit) {
     Box const& box = plot.box;
     double const hair = 0.07 * unit;
     TextStyle const small{unit, faint_ink};
@@ -187,8 +294,12 @@ void draw_panel(Cairo* sheet, Plot const& plot, Section const& section, Scales c
         draw_text(sheet, {box.x - 0.7 * unit, y + 0.36 * unit}, number(z, scales.decimals), small, Anchor::end);
     }
     std::vector<std::vector<Vec2>> const stretches = stretches_of(section.points, plot);
+    bool const has_rock = below.bed_m && !section.points.empty();
+    if (has_rock) {
+        RockBelow(section, below, plot.y_low).draw(sheet, plot, hair);
+    }
     for (std::vector<Vec2> const& line : stretches) {
-        draw_ground(sheet, line, box.bottom(), land, land_line, 0.13 * unit);
+        draw_ground(sheet, line, box.bottom(), has_rock ? Colour{1.0, 1.0, 1.0, 0.0} : land, land_line, 0.13 * unit);
     }
     if (section.kind == Section::Kind::river) {
         // A mark at the river: a triangle on the terrain.
@@ -324,7 +435,7 @@ PanelSheet sheet_for_panels(std::vector<Section> const& cuts, double width) {
     return sheet;
 }
 
-void draw_panels(Cairo* cairo, PanelSheet const& sheet, std::vector<Section> const& cuts) {
+void draw_panels(Cairo* cairo, PanelSheet const& sheet, std::vector<Section> const& cuts, LayersBelow const& below) {
     Scales const& scales = sheet.scales;
     Ticks const ticks = ticks_between(scales.x_low / sheet.metres_a_unit, scales.x_high / sheet.metres_a_unit,
                                       std::clamp(static_cast<int>(sheet.first.width / (6.0 * sheet.unit)), 1, 8));
@@ -335,7 +446,7 @@ void draw_panels(Cairo* cairo, PanelSheet const& sheet, std::vector<Section> con
             double const px = plot.at(x * sheet.metres_a_unit, plot.y_low).x;
             draw_line(cairo, {px, plot.box.y}, {px, plot.box.bottom()}, 0.07 * sheet.unit, grid_line);
         }
-        draw_panel(cairo, plot, cuts[k], scales, k, sheet.unit);
+        draw_panel(cairo, plot, cuts[k], below, scales, k, sheet.unit);
         if (k + 1 == cuts.size()) {
             draw_scale_of_x(cairo, plot.box, ticks, sheet.metres_a_unit, scales, sheet.unit);
         }
@@ -354,7 +465,7 @@ void name_axes(Cairo* cairo, PanelSheet const& sheet, bool across) {
 }
 
 /// Writes the text common to all panels, below the key.
-void write_scales(Cairo* cairo, PanelSheet const& sheet, Grid const& grid) {
+void write_scales(Cairo* cairo, PanelSheet const& sheet, Grid const& grid, bool has_rock) {
     Box const& key = sheet.key;
     double const high =
         std::min(key.height, key.width * static_cast<double>(grid.height) / static_cast<double>(grid.width));
@@ -363,9 +474,19 @@ void write_scales(Cairo* cairo, PanelSheet const& sheet, Grid const& grid) {
                      key.width);
     draw_text_within(cairo, {key.x, key.y + high + 4.7 * sheet.unit}, "heights ×" + two_figures(sheet.exaggeration),
                      small, key.width);
+    if (has_rock) {
+        draw_text_within(cairo, {key.x, key.y + high + 6.2 * sheet.unit}, "dark: firm rock, pale: soft", small,
+                         key.width);
+    }
 }
 
 } // namespace
+
+std::string layer_colour(double strength) {
+    Colour const colour = colour_of_layer(strength);
+    auto const of_256 = [](double part) { return static_cast<int>(std::lround(255.0 * part)); };
+    return fmt::format("#{:02x}{:02x}{:02x}", of_256(colour.red), of_256(colour.green), of_256(colour.blue));
+}
 
 double height_at(Raster<float> const& dem, Vec2 position) {
     Grid const& grid = dem.grid();
@@ -444,10 +565,10 @@ Picture sections(Raster<float> const& dem, ElevatedNetwork const* network, Netwo
         draw_text_within(cairo, {sheet.first.x, 2.2 * sheet.unit},
                          params.title.empty() ? name : params.title + ": " + (across ? "cross-sections" : "sections"),
                          {1.35 * sheet.unit, ink, Weight::bold}, sheet.width - sheet.first.x - 2.0 * sheet.unit);
-        draw_panels(cairo, sheet, cuts);
+        draw_panels(cairo, sheet, cuts, params.below);
         name_axes(cairo, sheet, across);
         draw_key(cairo, sheet.key, dem.grid(), stem, cuts, sheet.unit);
-        write_scales(cairo, sheet, dem.grid());
+        write_scales(cairo, sheet, dem.grid(), static_cast<bool>(params.below.bed_m));
     });
 }
 

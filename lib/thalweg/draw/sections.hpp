@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -41,12 +42,31 @@ std::vector<Section> cut_sections(Raster<float> const& dem, ElevatedNetwork cons
 /// \return [m] NaN: off the grid, or a contributing cell has no height
 double height_at(Raster<float> const& dem, Vec2 position);
 
+/// A layer of rock in a section.
+struct LayerBelow {
+    double top_m = 0.0;    ///< above the bed; of the topmost one infinite
+    double strength = 1.0; ///< > 0: firm layers are drawn darker
+};
+
+/// Layers of rock below the ground.
+struct LayersBelow {
+    std::function<double(Vec2)> bed_m; ///< [m] height of the bed at a place; empty: there are no layers
+    /// layers from the lowest up that lie between two heights above the bed [m]
+    std::function<std::vector<LayerBelow>(double, double)> layers;
+};
+
+/// The colour of a layer of rock on maps and sections: the firmer, the darker.
+/// \param strength of a layer, > 0
+/// \return "#rrggbb"
+std::string layer_colour(double strength);
+
 /// Options of sections().
 struct SectionsParams {
     std::string title;   ///< "" for none
     int count = 5;       ///< [1, 9] across the main stem
     int width_px = 1000; ///< [200, 8000]; the height follows from the number of cuts
     Format format = Format::svg;
+    LayersBelow below = {}; ///< drawn below the ground
 };
 
 /// Draws cross-sections of the valley, one below the other from the upper to the lower, all on the same scales, with a

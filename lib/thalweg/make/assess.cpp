@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/append.hpp>
+#include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/small_blocks.hpp>
 #include <thalweg/make/file_values.hpp>
 #include <thalweg/make/internal/assess.hpp>
@@ -90,6 +91,73 @@ void warn_of_relief(recipe::Recipe const& recipe, Terrain const& terrain, Terrai
     }
 }
 
+/// "1, 3 and 4".
+std::string list_of(std::vector<std::size_t> const& numbers) {
+    std::string out;
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+        out += fmt::format("{}{}", k == 0 ? "" : k + 1 == numbers.size() ? " and " : ", ", numbers[k]);
+    }
+    return out;
+}
+
+/// Says which layers of rock do not show as the recipe has them.
+void warn_of_layers(recipe::Recipe const& recipe, Terrain const& terrain, std::vector<double> const& shares,
+                    StageLog& stage_log) {
+    surface::Strata const strata = strata_of(recipe, terrain.grid);
+    double const upright = 1.0 / portable::cos(strata.dip_deg * portable::pi / 180.0);
+    double const dip = portable::sin(strata.dip_deg * portable::pi / 180.0) * upright;
+    double const tilt = dip + 2.0 * portable::pi * strata.folds.amplitude_m / strata.folds.wavelength_m;
+    double const step_m = terrain.grid.cell_m * tilt;
+    std::vector<std::size_t> thin;
+    std::vector<std::size_t> unseen;
+    double steepest = 0.0;
+    for (std::size_t k = 0; k < strata.layers.size(); ++k) {
+        bool const has_end = strata.repeats || k + 1 < strata.layers.size();
+        if (has_end && strata.layers[k].thickness_m * upright < step_m) {
+            thin.push_back(k + 1);
+        }
+        if (shares[k] == 0.0) {
+            unseen.push_back(k + 1);
+        } else {
+            steepest = std::max(steepest, strata.layers[k].cliff);
+        }
+    }
+    if (!thin.empty()) {
+        stage_log.find(
+            {.kind = "thin_layers",
+             .amount = static_cast<double>(thin.size()),
+             .text = fmt::format("layers {} (counted from the lowest) are thinner than {:.3g} m, by which their "
+                                 "beds rise over one cell: they show as single cells",
+                                 list_of(thin), step_m),
+             .key = "layer"});
+    }
+    if (!unseen.empty()) {
+        stage_log.find(
+            {.kind = "unseen_layers",
+             .amount = static_cast<double>(unseen.size()),
+             .text = fmt::format("layers {} (counted from the lowest) lie nowhere at the surface", list_of(unseen)),
+             .key = "strata.base"});
+    }
+    double const slope = recipe.surface->equilibrium.mean_slope_deg.value_or(0.0) * portable::pi / 180.0;
+    if (!(recipe.surface->dilate.relief_m > 0.0) && steepest * portable::cos(slope) < portable::sin(slope)) {
+        stage_log.find(
+            {.kind = "gentle_layers",
+             .amount = steepest,
+             .text = fmt::format("surface.mean_slope = {:.3g} degrees is steeper than any slope may be in the "
+                                 "layers at the surface, whose steepest has cliff = {:.3g}",
+                                 *recipe.surface->equilibrium.mean_slope_deg, steepest),
+             .key = "layer"});
+    }
+    if (std::int64_t const cells = terrain.ground.equilibrium()->held_back; cells > 0) {
+        stage_log.find({.kind = "held_back_slopes",
+                        .amount = static_cast<double>(cells),
+                        .text = fmt::format("{} cells are as high as land in layers may be, twice the greatest height "
+                                            "without: beds climb there and no river cuts them",
+                                            cells),
+                        .key = "surface.edge"});
+    }
+}
+
 /// Measures a surface, with the rivers on it.
 SurfaceMeasures of_surface(recipe::Recipe const& recipe, Terrain const& terrain, StageLog& stage_log, Run const& run) {
     flow::FlowField const& drainage = terrain.water.drainage;
@@ -98,6 +166,12 @@ SurfaceMeasures of_surface(recipe::Recipe const& recipe, Terrain const& terrain,
     SurfaceMeasures found;
     found.statistics = stage_log.stage(recipe::stage::measure.name, [&] { return measure::statistics(dem, run); });
     found.hypsometry = measure::hypsometry(dem, run);
+    if (has_layers(recipe, terrain.ground)) {
+        surface::Strata const strata = strata_of(recipe, terrain.grid);
+        found.layers = surface::layers_at(dem, bed_of(recipe, terrain.ground, terrain.grid, run), strata, run);
+        found.layer_shares = surface::shares_of_layers(found.layers, strata.layers.size());
+        warn_of_layers(recipe, terrain, found.layer_shares, stage_log);
+    }
     found.pits = drainage.pits;
     found.pit_volume_m3 = drainage.pit_volume_m3;
     if (recipe.network) {

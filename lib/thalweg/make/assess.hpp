@@ -39,8 +39,11 @@ struct SurfaceMeasures {
     std::vector<NodeId> sinks = {};                              ///< where rivers end inland, as the recipe asks
     std::optional<measure::ExtractedRidges> surface_ridges = {}; ///< beside the ridges asked for
     std::optional<measure::Certificate> certificate = {};        ///< of rivers and surface, where both are there
-    std::optional<flow::Catchments> catchments = {};             ///< of the arcs, where they are asked for
-    std::optional<WaterAreas> water_areas = {};                  ///< where they are asked for
+    Raster<std::uint8_t> layers =
+        {}; ///< of rock at the surface, as surface::layers_at(); without cells: there are none
+    std::vector<double> layer_shares = {};           ///< by layer: of the surface
+    std::optional<flow::Catchments> catchments = {}; ///< of the arcs, where they are asked for
+    std::optional<WaterAreas> water_areas = {};      ///< where they are asked for
     RiverLaws laws = {};
 };
 

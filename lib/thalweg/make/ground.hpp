@@ -65,6 +65,7 @@ struct Equilibrium {
     double rise = 0.0;
     double steepness = 0.0;      ///< [m^0.9] normalised, of the main stems; NaN: not graded
     double strata_shift_m = 0.0; ///< as surface::EquilibriumTerrain
+    std::int64_t held_back = 0;  ///< likewise
     bool in_region = false;
     std::vector<surface::RegionInflow> inflows = {};
     std::optional<LikeStatistics> like = {}; ///< where surface.like is set
@@ -131,6 +132,13 @@ inline constexpr char const* invented_heights = "heights are invented: surface.r
 /// \param recipe with a surface in equilibrium
 /// \return without layers where the recipe has none
 surface::Strata strata_of(recipe::Recipe const& recipe, Grid const& grid);
+
+/// Whether the ground was made in layers of rock.
+bool has_layers(recipe::Recipe const& recipe, Ground const& ground);
+
+/// The bed of the layers of rock of terrain that has some.
+/// \return [m] by cell, as surface::bed_heights()
+Raster<float> bed_of(recipe::Recipe const& recipe, Ground const& ground, Grid const& grid, Run const& run = {});
 
 /// The uplift of terrain in equilibrium: of the recipe's raster times its pattern.
 /// \param recipe with a surface in equilibrium

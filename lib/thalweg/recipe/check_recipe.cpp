@@ -222,6 +222,16 @@ void check_strata(Recipe const& recipe, Faults& faults) {
     add_if(recipe.layers.size() > most, faults,
            fmt::format("{} tables [[layer]]: {} at most; strata.repeat = true lays them again and again",
                        recipe.layers.size(), most));
+    if (recipe.strata && recipe.strata->cap_share) {
+        add_if(recipe.surface->dilate.relief_m > 0.0, faults,
+               "strata.cap_share and surface.relief do not go together: either says how high the land is");
+        bool const has_cap = std::adjacent_find(recipe.layers.begin(), recipe.layers.end(),
+                                                [](surface::RockLayer const& lower, surface::RockLayer const& upper) {
+                                                    return lower.strength > upper.strength;
+                                                }) != recipe.layers.end();
+        add_if(!has_cap, faults,
+               "strata.cap_share needs a cap rock: a [[layer]] with a greater strength than the one upon it");
+    }
     constexpr char const* with = "[[layer]] does not go with {} yet: {}";
     Heights const heights = recipe.network->heights;
     add_if(heights != Heights::automatic && heights != Heights::graded, faults,

@@ -189,6 +189,8 @@ struct SurfaceRecipe {
 struct StrataRecipe {
     bool repeat = false; ///< layers lie above and below each other again and again
     double base_m = 0.0;
+    std::optional<double>
+        cap_share; ///< (0, 1) of land that reaches the cap rock; none: heights follow the surface's keys
     double dip_deg = 0.0;
     std::optional<double> strike_deg; ///< none: that of the surface
     double fold_m = 0.0;              ///< amplitude

@@ -593,6 +593,11 @@ Row const rows[] = {
         "faults "
         "move it",
         [](Recipe& r, Item) -> Field { return &r.strata->base_m; }),
+    key("strata.cap_share", number, "", {0, 1, left_open}, in_layers and ask::is(&StrataRecipe::repeat, {false}),
+        "share of the land that reaches the cap rock, the topmost layer that is firmer than the one upon it: so high "
+        "is "
+        "the land, in place of surface.relief; left out: not asked",
+        [](Recipe& r, Item) -> Field { return &r.strata->cap_share; }),
     key("strata.dip", number, "degrees", {0, 75}, in_layers, "by which layers are tilted",
         [](Recipe& r, Item) -> Field { return &r.strata->dip_deg; }),
     key("strata.strike", number, "degrees", {-360, 360}, in_layers,

@@ -163,6 +163,23 @@ double round_interval(double relief_m) {
     return step;
 }
 
+draw::LayersBelow layers_below(recipe::Recipe const& recipe, Grid const& grid, double shift_m) {
+    surface::Strata const strata = make::strata_of(recipe, grid);
+    draw::LayersBelow below;
+    below.bed_m = [bed = surface::Bed(strata), grid, shift_m](Vec2 place) {
+        Vec2 const at = surface::from_centre(grid, place);
+        return bed.height_m(at.x, at.y) - shift_m;
+    };
+    below.layers = [strata](double low_m, double high_m) {
+        std::vector<draw::LayerBelow> layers;
+        for (surface::StackedLayer const& stacked : surface::stack_of(strata, low_m, high_m)) {
+            layers.push_back({stacked.top_m, strata.layers[stacked.layer].strength});
+        }
+        return layers;
+    };
+    return below;
+}
+
 std::string missing_for(PictureKind kind, Scene const& scene) {
     switch (kind) {
     case PictureKind::profile: return scene.network ? "" : "there are no rivers: name a file of them with --network";
@@ -193,6 +210,7 @@ draw::Picture draw_picture(PictureKind kind, Scene const& scene, Look const& loo
     case PictureKind::sections: {
         draw::SectionsParams params;
         params.title = scene.title;
+        params.below = scene.rock;
         params.format = look.format;
         params.width_px = look.width_px > 0 ? look.width_px : params.width_px;
         return draw::sections(*scene.dem, network_of(scene), orders_of(scene), params);

@@ -13,6 +13,8 @@
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/draw/map.hpp>
 #include <thalweg/draw/picture.hpp>
+#include <thalweg/draw/sections.hpp>
+#include <thalweg/recipe/recipe.hpp>
 #include <thalweg/report/landmarks.hpp>
 
 namespace thalweg::report {
@@ -37,7 +39,14 @@ struct Scene {
     double contour_interval_m = 0.0; ///< 0: a round number is chosen
     std::optional<Sea> sea;          ///< cells without a height are the sea
     Mask lakes;                      ///< on the DEM's grid; without cells: none
+    draw::LayersBelow rock;          ///< below the ground
 };
+
+/// The layers of rock of a recipe, as sections show them.
+/// \param grid of the terrain
+/// \param shift_m by which they lie lower than the recipe says
+/// \internal
+draw::LayersBelow layers_below(recipe::Recipe const& recipe, Grid const& grid, double shift_m);
 
 /// The appearance of pictures; each picture chooses what is not set.
 struct Look {

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/draw/map.hpp>
+#include <thalweg/draw/sections.hpp>
 #include <thalweg/io/qgis/project.hpp>
 #include <thalweg/io/qgis/styles.hpp>
 #include <thalweg/make/file_values.hpp>
@@ -122,6 +123,16 @@ void write_qgis_files(make::MakeResult const& made, std::string const& title, io
             layers.styled(Kind::raster, name, file, io::area_style(cell_m2, std::max(greatest(*areas), cell_m2)), false,
                           false, "Area drained");
         }
+    }
+    if (layers.has("strata.tif")) {
+        std::vector<io::ClassOfCells> classes;
+        for (surface::RockLayer const& layer : made.recipe.layers) {
+            classes.push_back({static_cast<int>(classes.size()) + 1,
+                               fmt::format("{}: strength {:.3g}", classes.size() + 1, layer.strength),
+                               draw::layer_colour(layer.strength)});
+        }
+        layers.styled(Kind::raster, "Rock at the surface", "strata.tif", io::classes_style(classes), false, false,
+                      "Layer");
     }
     if (layers.has("dem.tif")) {
         if (auto heights = height_range(made.terrain.ground.dem)) {

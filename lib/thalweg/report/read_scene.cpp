@@ -163,6 +163,15 @@ void read_increments(Scene& scene, recipe::Recipe const& recipe, std::string con
     }
 }
 
+/// Reads how layers of rock lie: the recipe says it, and the report by how much lower.
+void read_rock(Scene& scene, recipe::Recipe const& recipe, std::string const& report) {
+    auto const json = bounded_json<nlohmann::json>(report, {.most_keys = std::size_t{1} << 20U});
+    auto const made = json.is_object() && json.contains("equilibrium") ? json["equilibrium"] : nlohmann::json();
+    if (scene.dem && made.is_object() && made.contains("strata_shift_m") && made["strata_shift_m"].is_number()) {
+        scene.rock = layers_below(recipe, scene.dem->grid(), made["strata_shift_m"].get<double>());
+    }
+}
+
 SceneRead read_folder(ReadSceneParams const& params, Run const& run) {
     fs::path const folder = params.source;
     SceneRead out;
@@ -201,7 +210,9 @@ SceneRead read_folder(ReadSceneParams const& params, Run const& run) {
         bool const in_metres = made.output.units == HeightUnit::metre; // pictures are always in metres
         scene.contour_interval_m = in_metres ? made.output.contour_interval : 0.0;
         if (fs::exists(report)) {
-            read_increments(scene, made, io::read_text(report, largest_text));
+            std::string const told = io::read_text(report, largest_text);
+            read_increments(scene, made, told);
+            read_rock(scene, made, told);
         }
     }
     return out;

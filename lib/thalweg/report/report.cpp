@@ -450,6 +450,8 @@ void add_statistics(make::MakeResult const& t, ordered_json& report) {
             {"inflows", ordered_json::parse(inflows_json(t.terrain.grid, e.inflows))}};
         if (!t.recipe.layers.empty()) {
             report["equilibrium"]["strata_shift_m"] = e.strata_shift_m;
+            report["equilibrium"]["strata_strike_deg"] = make::strata_of(t.recipe, t.terrain.grid).strike_deg;
+            report["equilibrium"]["layer_shares"] = t.assessment.layer_shares;
         }
         if (e.like) {
             report["equilibrium"]["like"] = {{"mean_slope_deg", e.like->mean_slope_deg},

@@ -142,10 +142,12 @@ void write_areas(make::WaterAreas const& areas, io::OutputFolder const& out, Run
 }
 
 void write_strata(make::MakeResult const& t, io::OutputFolder const& out, Run const& run) {
-    make::Terrain const& terrain = t.terrain;
-    Raster<std::uint8_t> const layers = surface::layers_at(terrain.ground.dem, make::strata_of(t.recipe, terrain.grid),
-                                                           terrain.ground.equilibrium()->strata_shift_m, run);
-    io::write_codes(layers, out.path("strata.tif"), run);
+    io::write_codes(t.assessment.layers, out.path("strata.tif"), run);
+    Raster<float> bed = make::bed_of(t.recipe, t.terrain.ground, t.terrain.grid, run);
+    if (HeightUnit const unit = t.recipe.output.units; unit != HeightUnit::metre) {
+        bed = make::in_unit(bed, unit);
+    }
+    io::write_dem(bed, out.path("strata_bed.tif"), run);
 }
 
 void write_uplift(make::MakeResult const& t, io::OutputFolder const& out, Run const& run) {
@@ -309,6 +311,9 @@ draw::Picture wireframe_of(make::MakeResult const& t, std::string const& title) 
 draw::Picture sections_of(make::MakeResult const& t, std::string const& title) {
     draw::SectionsParams sections;
     sections.title = title;
+    if (make::has_layers(t.recipe, t.terrain.ground)) {
+        sections.below = layers_below(t.recipe, t.terrain.grid, t.terrain.ground.equilibrium()->strata_shift_m);
+    }
     return draw::sections(t.terrain.ground.dem, network_of(t), orders_of(t), sections);
 }
 
@@ -355,6 +360,9 @@ public:
                 }
                 io::write_text(out_.path("report.html"), page(made_, params, run));
             });
+        }
+        if (made_.assessment.layers.cells() > 0 && writes(recipe::OutputFiles::dem)) {
+            add("write_strata", [this](Run const& run) { write_strata(made_, out_, run); });
         }
         if (made_.assessment.catchments && writes(recipe::OutputFiles::catchments)) {
             add("write_catchments", [this](Run const& run) { write_catchments(made_, out_, run); });
@@ -406,9 +414,6 @@ private:
         }
         if (writes(recipe::OutputFiles::dem)) {
             add("write_dem", [this](Run const& run) { write_dem(made_, out_, run); });
-            if (!made_.recipe.layers.empty() && made_.terrain.ground.equilibrium() != nullptr) {
-                add("write_strata", [this](Run const& run) { write_strata(made_, out_, run); });
-            }
         }
         if (writes(recipe::OutputFiles::pictures)) {
             if (!made_.terrain.ground.dilated().increments.empty()) {

@@ -367,7 +367,8 @@ TEST(Strata, LayersAtTheSurfaceAreCountedFromTheLowest) {
     std::vector<float> const heights{-40.0F, 111.0F, 160.0F, 900.0F, std::numeric_limits<float>::quiet_NaN()};
     std::copy(heights.begin(), heights.end(), dem.values().begin());
     auto const codes = [&](double shift_m) {
-        Raster<std::uint8_t> const layers = surface::layers_at(dem, strata, shift_m);
+        Raster<std::uint8_t> const layers =
+            surface::layers_at(dem, surface::bed_heights(dem.grid(), strata, shift_m), strata);
         return std::vector<int>(layers.values().begin(), layers.values().end());
     };
     EXPECT_EQ(codes(0.0), (std::vector<int>{1, 2, 2, 3, 0})); // 160 m is the bare top of the second
@@ -376,9 +377,33 @@ TEST(Strata, LayersAtTheSurfaceAreCountedFromTheLowest) {
     EXPECT_EQ(codes(0.0), (std::vector<int>{2, 2, 2, 3, 0})); // 890 m: four times 180, and 170
 }
 
+// The cap rock is the upper of two firm layers; a tenth and two thirds of the land reach its bottom.
+TEST(EquilibriumInLayers, ReachTheCapRockAsAsked) {
+    for (double const share : {0.1, 0.4, 0.67}) {
+        EquilibriumParams params;
+        params.cap_share = share;
+        Land const land = land_of(canyon(), params);
+        EXPECT_NEAR(land.terrain.cap_share, share, 0.05);
+        Raster<float> const bed = surface::bed_heights(land.terrain.dem.grid(), canyon(), land.terrain.strata_shift_m);
+        std::int64_t reached = 0;
+        for (std::int64_t i = 0; i < bed.cells(); ++i) {
+            reached += land.terrain.dem[i] - bed[i] >= land.tops[2] ? 1 : 0;
+        }
+        EXPECT_NEAR(static_cast<double>(reached) / static_cast<double>(bed.cells()), land.terrain.cap_share, 1e-9);
+    }
+    EXPECT_EQ(surface::cap_rock(canyon()), 3U);
+    Strata none = canyon();
+    none.repeats = true;
+    EXPECT_EQ(surface::cap_rock(none), std::nullopt);
+    EquilibriumParams params;
+    params.cap_share = 0.5;
+    EXPECT_TRUE(has(message_of([&] { land_of(none, params); }), "cap rock"));
+}
+
+// Not every relief is met: it is the height of one cell and jumps by that of a cliff.
 TEST(EquilibriumInLayers, HasTheReliefAsked) {
     EquilibriumParams params;
-    for (double const relief : {250.0, 450.0}) {
+    for (double const relief : {300.0, 450.0}) {
         params.relief_m = relief;
         EXPECT_NEAR(land_of(canyon(), params).terrain.target_share, 1.0, 0.04) << relief;
     }

@@ -385,6 +385,18 @@ QgisStyle mask_style(std::string const& label, std::string const& colour_code) {
         {}, normal, by_cells);
 }
 
+QgisStyle classes_style(std::vector<ClassOfCells> const& classes) {
+    std::string entries;
+    for (ClassOfCells const& some : classes) {
+        entries += fmt::format("<paletteEntry value=\"{}\" color=\"{}\" alpha=\"255\" label=\"{}\"/>", some.number,
+                               some.colour, xml_escaped(some.label));
+    }
+    return raster_pipe(fmt::format("<rasterrenderer type=\"paletted\" band=\"1\" opacity=\"1\" alphaBand=\"-1\" "
+                                   "nodataColor=\"\"><colorPalette>{}</colorPalette></rasterrenderer>",
+                                   entries),
+                       {}, multiply, by_cells);
+}
+
 QgisStyle area_style(double smallest, double greatest) {
     constexpr std::array<char const*, 5> colours{{"#f7fbff", "#c9ddf0", "#85b6dd", "#2f74b5", "#08306b"}};
     refuse_if<BadInput>(!(smallest > 0.0) || !(greatest >= smallest), "io.area_style",

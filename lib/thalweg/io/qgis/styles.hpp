@@ -80,6 +80,17 @@ QgisStyle hillshade_style(double metres_in_unit = 1.0);
 /// \return a style for a raster of bytes
 QgisStyle mask_style(std::string const& label, std::string const& colour);
 
+/// A number of cells in a raster of bytes, and what it stands for.
+struct ClassOfCells {
+    int number = 0;
+    std::string label;  ///< in the legend
+    std::string colour; ///< "#9fc4e0"
+};
+
+/// Colours for cells by their number; others are clear.
+/// \return a style for a raster of bytes, which multiplies what lies below
+QgisStyle classes_style(std::vector<ClassOfCells> const& classes);
+
 /// Contributing areas by their logarithm.
 /// \param smallest,greatest [m2] > 0
 /// \return a style for a raster

@@ -138,6 +138,9 @@ surface::EquilibriumParams params_of(recipe::Recipe const& recipe, std::optional
     if (relief_m <= 0.0) {
         params.steepness = wanted.steepness;
     }
+    if (recipe.strata && !recipe.layers.empty()) {
+        params.cap_share = recipe.strata->cap_share;
+    }
     params.hillslope_m = wanted.hillslope_m > 0.0 ? wanted.hillslope_m : recipe.grid.cell_m;
     params.debris_area_m2 = wanted.debris_area_km2 * 1e6;
     params.floor_width_km = half_width_km * wanted.floor_width;
@@ -179,6 +182,20 @@ std::vector<Check> target_checks(surface::EquilibriumTerrain const& surface, sur
     bool const given = params.heights != surface::RiverHeights::graded;
     if (((given || by_levels) && !params.bring_to_target) || surface.is_bounded) {
         return {};
+    }
+    if (params.cap_share) {
+        double const off = std::fabs(surface.cap_share - *params.cap_share);
+        if (off > allowed) {
+            stage_log.find(
+                {.kind = "target_missed",
+                 .amount = surface.cap_share,
+                 .text = fmt::format("strata.cap_share = {:.4g} is not reached: {:.4g} of the land lies at the "
+                                     "cap rock or above it",
+                                     *params.cap_share, surface.cap_share),
+                 .key = "strata.cap_share",
+                 .numbers = {{"asked", *params.cap_share, "1"}}});
+        }
+        return {{"cap_share_error", off, allowed, off <= allowed}};
     }
     double const error = std::fabs(surface.target_share - 1.0);
     if (error > allowed) {
@@ -331,6 +348,7 @@ HowMade how_of(SolvedEquilibrium solved, Balance const& balance, std::int64_t ch
     how.rise = land.rise;
     how.steepness = land.steepness;
     how.strata_shift_m = land.strata_shift_m;
+    how.held_back = land.held_back;
     how.in_region = land.in_region;
     how.inflows = std::move(land.inflows);
     return balance.is_rebuilt ? HowMade(std::move(how)) : HowMade(static_cast<Equilibrium&&>(how));
@@ -458,6 +476,14 @@ surface::Strata strata_of(recipe::Recipe const& recipe, Grid const& grid) {
     strata.undulation_m = wanted.undulation_m;
     strata.undulation_wave_m = wanted.undulation_wave_m;
     return strata;
+}
+
+bool has_layers(recipe::Recipe const& recipe, Ground const& ground) {
+    return !recipe.layers.empty() && ground.equilibrium() != nullptr;
+}
+
+Raster<float> bed_of(recipe::Recipe const& recipe, Ground const& ground, Grid const& grid, Run const& run) {
+    return surface::bed_heights(grid, strata_of(recipe, grid), ground.equilibrium()->strata_shift_m, run);
 }
 
 Raster<float> relative_uplift(recipe::Recipe const& recipe, Grid const& grid, Run const& run) {

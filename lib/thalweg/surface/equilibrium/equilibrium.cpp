@@ -46,6 +46,9 @@ void check_params(EquilibriumParams const& params) {
     if (params.strike_deg) {
         require_in(self, "strike_deg", *params.strike_deg, Range::between(-360.0, 360.0), "degrees");
     }
+    if (params.cap_share) {
+        require_in(self, "cap_share", *params.cap_share, Range{0.0, 1.0, false, true});
+    }
     if (params.relief_m) {
         require_in(self, "relief_m", *params.relief_m, Range::above(0.0), "m");
     } else {
@@ -191,7 +194,8 @@ constexpr float of_perched = 3.0F;
 struct LayersOfLand {
     Strata const& strata;
     bool has_target;
-    double metres; ///< per unit
+    std::optional<double> cap_share; ///< the target; none: it is the relief
+    double metres;                   ///< per unit
     /// greatest height of the land without layers: in metres for the first guess, and in units
     double highest_m;
     double highest;
@@ -285,6 +289,47 @@ double off_target(TerrainLevel const& level, Window const& window, double metres
     return portable::log(std::max(share, 1e-6));
 }
 
+/// [log] by how much land is too high or too low for a share of it to reach the cap rock; 0 where it does.
+double off_cap_share(TerrainLevel const& level, Window const& window, double metres, double share, std::size_t cap) {
+    LevelLayers const& strata = level.strata;
+    auto const side = static_cast<double>(level.side);
+    double const bottom = cap > 0 ? strata.layers[cap - 1].top : 0.0;
+    std::int64_t const step = level.cells() > 1'000'000 ? 2 : 1; // a sample tells as much
+    std::vector<float> above;                                    // the cap rock's bottom
+    double heights = 0.0;                                        // of that, the sum
+    for (std::int64_t row = 1; row < level.height - 1; row += step) {
+        double const south = static_cast<double>(level.corner.row) + (static_cast<double>(row) - 0.5) * side;
+        for (std::int64_t col = 1; col < level.width - 1; col += step) {
+            double const east = static_cast<double>(level.corner.col) + (static_cast<double>(col) - 0.5) * side;
+            auto const i = static_cast<std::size_t>(row * level.width + col);
+            bool const is_inside = south > 0.0 && east > 0.0 && south < static_cast<double>(window.grid.height) &&
+                                   east < static_cast<double>(window.grid.width);
+            if (is_inside && (is_land(level.type[i]) || level.type[i] == CellType::river)) {
+                double const at = static_cast<double>(strata.bed[i]) + bottom;
+                above.push_back(static_cast<float>(static_cast<double>(level.z[i]) - at));
+                heights += at;
+            }
+        }
+    }
+    if (above.empty()) {
+        return 0.0;
+    }
+    constexpr double near = 0.02;     // of shares
+    constexpr double least = 0.05;    // [log] what is not near is off
+    constexpr double lowest_m = 10.0; // above the datum: what less means nothing
+    auto const count = static_cast<double>(above.size());
+    auto const reached = std::count_if(above.begin(), above.end(), [](float z) { return z >= 0.0F; });
+    double const too_much = static_cast<double>(reached) / count - share;
+    if (std::fabs(too_much) <= near) {
+        return 0.0;
+    }
+    auto const at = above.begin() + static_cast<std::ptrdiff_t>(std::min((1.0 - share) * count, count - 1.0));
+    std::nth_element(above.begin(), at, above.end());
+    double const height = std::max(metres * heights / count, lowest_m);
+    double const off = portable::log(std::max((metres * static_cast<double>(*at) + height) / height, 1e-3));
+    return std::copysign(std::max(std::fabs(off), least), too_much);
+}
+
 /// Computes the heights of a level from those of the coarser one.
 class Solver {
 public:
@@ -326,7 +371,7 @@ public:
                 }
                 set_boundary_heights(level, edge);
                 lift_frame(level, frame);
-                if (!shortened_.empty()) {
+                if (!shortened_.empty() || layers_ != nullptr) { // in layers divides meet at walls, too
                     slide_terrain(level, run_);
                 }
                 set_steepest_receivers(level, run_);
@@ -392,16 +437,18 @@ private:
     /// \param most_rounds that may be added
     /// \return rounds that it needs beyond those that are left
     int follow_target(TerrainLevel& level, int rounds_left, int most_rounds) {
-        constexpr double near = 0.035; // [log]
-        constexpr double near_at_last = 0.045;
-        constexpr double growth = 0.8; // of relief with metres per unit, about
-        constexpr double ahead = 2.0;  // rounds
-        constexpr double widest = 0.3; // step
+        constexpr double near = 0.035;        // [log]
+        constexpr double near_at_last = 0.03; // slides come after it
+        constexpr double growth = 0.8;        // of relief with metres per unit, about
+        constexpr double ahead = 2.0;         // rounds
+        constexpr double widest = 0.3;        // step
         bool const is_last = rounds_left == 1;
         if (!is_last && rounds_left <= settled_rounds) {
             return 0;
         }
-        double const off = off_target(level, window_, layers_->metres, params_, run_);
+        double const off = layers_->cap_share ? off_cap_share(level, window_, layers_->metres, *layers_->cap_share,
+                                                              *cap_rock(layers_->strata))
+                                              : off_target(level, window_, layers_->metres, params_, run_);
         double const before = std::isnan(off_before_) ? off : off_before_;
         off_before_ = off;
         double const to_come = off + ahead * (off - before);
@@ -818,6 +865,20 @@ double metres_without_layers(TerrainLevel const& level, Window const& window, Eq
     return portable::exp(at);
 }
 
+/// The share of land that reaches the bottom of the cap rock.
+double share_at_cap_rock(Raster<float> const& dem, Strata const& strata, double shift_m, Run const& run) {
+    Raster<float> const bed = bed_heights(dem.grid(), strata, shift_m, run);
+    std::size_t const cap = *cap_rock(strata);
+    double const bottom_m = cap > 0 ? stack_of(strata, 0.0, 0.0)[cap - 1].top_m : 0.0;
+    std::int64_t land = 0;
+    std::int64_t reached = 0;
+    for (std::int64_t i = 0; i < dem.cells(); ++i) {
+        land += std::isnan(dem[i]) ? 0 : 1;
+        reached += static_cast<double>(dem[i]) - static_cast<double>(bed[i]) >= bottom_m ? 1 : 0;
+    }
+    return land > 0 ? static_cast<double>(reached) / static_cast<double>(land) : 0.0;
+}
+
 /// Terrain in layers of rock around graded rivers. Layers are in metres and the solver is not, so that the number of
 /// metres per unit that gives a relief is found while levels are solved. A mean slope and a greatest steepness are
 /// those of rock without layers: a plateau has no such slope, whatever its height.
@@ -839,7 +900,8 @@ EquilibriumTerrain terrain_in_layers(Channels const& rivers, EquilibriumFields c
         highest = std::isnan(z) ? highest : std::max(highest, static_cast<double>(z));
     }
     coarse = {};
-    LayersOfLand layers{fields.strata, params.relief_m && params.bring_to_target, guess, highest * guess, highest};
+    bool const has_target = params.cap_share || (params.relief_m && params.bring_to_target);
+    LayersOfLand layers{fields.strata, has_target, params.cap_share, guess, highest * guess, highest};
     EquilibriumSolution land = solved(rivers, fields, params, nullptr, run, &layers);
     double const metres = layers.metres;
     double const steepness = land.steepness * metres;
@@ -847,9 +909,15 @@ EquilibriumTerrain terrain_in_layers(Channels const& rivers, EquilibriumFields c
                                  mean_tangent(land.level, window, metres, run)};
     EquilibriumTerrain out = graded_terrain(std::move(land), rivers, fields, params, raise, run);
     out.strata_shift_m = -raise.base_m;
+    auto const highest_m = static_cast<float>(layers.most_m() + raise.base_m);
+    out.held_back = std::count_if(out.dem.values().begin(), out.dem.values().end(),
+                                  [highest_m](float z) { return z >= 0.9999F * highest_m; });
     out.steepness = steepness;
     out.is_bounded = is_bounded;
     out.target_share = params.relief_m ? out.target_share : share;
+    if (params.cap_share) {
+        out.cap_share = share_at_cap_rock(out.dem, fields.strata, out.strata_shift_m, run);
+    }
     return out;
 }
 
@@ -900,6 +968,9 @@ void check_layers(Channels const& rivers, EquilibriumFields const& fields, Equil
         return;
     }
     Bed const checked(fields.strata);
+    refuse_if<BadParameter>(
+        params.cap_share && !cap_rock(fields.strata), "surface.equilibrium",
+        "no layer is the cap rock: one that is firmer than the one upon it, in a stack without repeats");
     if (asks_heights(rivers, params)) {
         refuse_layers(fields, "prescribed heights of rivers", R"(network.heights = "graded" does without)");
     }

@@ -76,6 +76,8 @@ struct EquilibriumParams {
     double mean_slope_deg = 25.0;   ///< (0, 60] mean over cells (Horn's slope), unless relief_m is set; in layers that
                                     ///< which rock without layers would have
     std::optional<double> relief_m; ///< [m] > 0, highest minus lowest cell; replaces the mean slope
+    /// (0, 1) in layers: of land that reaches the bottom of the cap rock (cap_rock()) or more; replaces the mean slope
+    std::optional<double> cap_share;
     /// [m^0.9] > 0 greatest normalised steepness of the main stems of graded rivers, for a concavity of 0.45: where the
     /// mean slope makes them steeper, all heights are lowered to it; none: not bounded. Nothing with relief_m.
     std::optional<double> steepness;
@@ -124,7 +126,10 @@ struct EquilibriumTerrain {
     /// [m^0.9] normalised steepness of the main stems of graded rivers, those of larger basins more; NaN: not graded
     double steepness = std::numeric_limits<double>::quiet_NaN();
     double strata_shift_m = 0.0; ///< by which layers lie lower than asked, as rivers fall beyond an open edge
-    bool is_bounded = false;     ///< by the greatest steepness, so that the mean slope is less than its target
+    double cap_share =
+        std::numeric_limits<double>::quiet_NaN(); ///< [0, 1] of land that reaches the cap rock; NaN: none
+    std::int64_t held_back = 0;                   ///< cells at the greatest height that land in layers may have
+    bool is_bounded = false; ///< by the greatest steepness, so that the mean slope is less than its target
 };
 
 /// Builds terrain in equilibrium with given rivers: uplift equals fluvial incision (K A^theta S, debris flows where A

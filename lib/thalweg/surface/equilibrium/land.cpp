@@ -118,8 +118,45 @@ std::size_t follow_in_band(TerrainLevel& level, std::int64_t top, std::int64_t b
 
 constexpr float tolerance = 1.5F; // relative to the cap
 
+/// The greatest height of a cell above its neighbours in layers of rock, each of which has a cap of its own.
+float greatest_height_in_layers(TerrainLevel const& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
+    LevelLayers const& strata = level.strata;
+    auto const by_cap = static_cast<double>(tolerance * level.side * level.rock.cap(i) / steepest_tangent);
+    auto const bed = static_cast<double>(strata.bed[i]);
+    float most = level.z[i];
+    for (std::size_t k = 0; k < offsets.size(); ++k) {
+        std::size_t const n = moved(i, offsets[k]);
+        if (level.z[n] < most) {
+            auto const bed_below = static_cast<double>(strata.bed[n]);
+            double const length = by_cap * static_cast<double>(step_lengths[k]);
+            double const s = climb_through(strata.layers, static_cast<double>(level.z[n]) - bed_below, bed - bed_below,
+                                           [&](std::size_t layer) { return strata.layers[layer].cap * length; });
+            float const least = level.z[n] + level.least * level.side * step_lengths[k];
+            most = std::min(most, std::max(static_cast<float>(s + bed), least));
+        }
+    }
+    return most;
+}
+
+/// Whether a cell is steeper above a neighbour than the cap of its own layer allows.
+bool is_steep_in_layer(TerrainLevel const& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
+    LevelLayers const& strata = level.strata;
+    std::size_t const k = layer_of(strata.layers, static_cast<double>(level.z[i]) - static_cast<double>(strata.bed[i]));
+    float const cap =
+        tolerance * level.side * level.rock.cap(i) / steepest_tangent * static_cast<float>(strata.layers[k].cap);
+    for (std::size_t step = 0; step < offsets.size(); ++step) {
+        if (level.z[i] - level.z[moved(i, offsets[step])] > cap * step_lengths[step]) {
+            return true;
+        }
+    }
+    return false;
+}
+
 float greatest_height(TerrainLevel const& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
-    float const steepest = tolerance * level.strata.steepest * level.side * level.rock.cap(i);
+    if (!level.strata.empty()) {
+        return greatest_height_in_layers(level, i, offsets);
+    }
+    float const steepest = tolerance * level.side * level.rock.cap(i);
     float most = level.z[i];
     for (std::size_t k = 0; k < offsets.size(); ++k) {
         most = std::min(most, level.z[moved(i, offsets[k])] + steepest * step_lengths[k]);
@@ -619,10 +656,15 @@ void slide_terrain(TerrainLevel& level, Run const& run) {
     auto* const slides = widest_lanes() == Lanes::avx2 ? &avx2::slides_row : &plain::slides_row;
     Cells<std::uint8_t> steep(level.z.size());
     each_inner_row(level, run, [&](std::size_t first) {
+        if (!level.strata.empty()) {
+            for (std::size_t i = first; i < first + static_cast<std::size_t>(level.width - 2); ++i) {
+                steep[i] = is_land(level.type[i]) && is_steep_in_layer(level, i, offsets) ? 1 : 0;
+            }
+            return;
+        }
         std::vector<float> caps(static_cast<std::size_t>(level.width - 2));
         level.rock.caps(first, caps);
-        slides(&level.z[first], caps.data(), tolerance * level.strata.steepest * level.side, &steep[first], level.width,
-               level.width - 2);
+        slides(&level.z[first], caps.data(), tolerance * level.side, &steep[first], level.width, level.width - 2);
     });
     std::vector<std::size_t> open;
     auto const slide = [&](std::size_t i) {

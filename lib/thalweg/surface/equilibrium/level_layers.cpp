@@ -42,8 +42,6 @@ LevelLayers level_layers(TerrainLevel const& level, Strata const& strata, Grid c
         double const cap = rock.cliff * by_unit;
         out.layers.push_back(
             {stacked.top_m / conversion.metres, rock.strength, std::min(rock.strength, std::sqrt(rock.strength)), cap});
-        out.steepest =
-            std::max(out.layers.size() == 1 ? 0.0F : out.steepest, static_cast<float>(cap) / steepest_tangent);
     }
     return out;
 }

@@ -14,20 +14,12 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/core/same_grid.hpp>
 
 namespace thalweg::surface {
 namespace {
 
 constexpr double rad_per_deg = portable::pi / 180.0;
-
-/// A direction by its angle clockwise from north.
-struct Way {
-    explicit Way(double deg) : east(portable::sin(deg * rad_per_deg)), north(portable::cos(deg * rad_per_deg)) {}
-    double along(double x, double y) const { return x * east + y * north; }
-    double to_the_right(double x, double y) const { return x * north - y * east; }
-    double east;
-    double north;
-};
 
 double tangent(double deg) {
     return portable::sin(deg * rad_per_deg) / portable::cos(deg * rad_per_deg);
@@ -65,38 +57,47 @@ void check(Strata const& strata) {
     require_in(self, "undulation_wave_m", strata.undulation_wave_m, Range::above(0.0), "m");
 }
 
-double folded(RockFolds const& folds, double x, double y) {
+} // namespace
+
+Bed::Way Bed::way_of(double deg) {
+    return {portable::sin(deg * rad_per_deg), portable::cos(deg * rad_per_deg)};
+}
+
+Bed::Bed(Strata const& strata) : strata_(strata) {
+    check(strata);
+    Way const strike = way_of(strata.strike_deg);
+    east_ = -tangent(strata.dip_deg) * strike.north;
+    north_ = tangent(strata.dip_deg) * strike.east;
+    axis_ = way_of(strata.folds.axis_deg);
+    plunge_ = tangent(strata.folds.plunge_deg);
+    for (RockFault const& fault : strata.faults) {
+        fault_strike_.push_back(way_of(fault.strike_deg));
+    }
+}
+
+double Bed::folded(double x, double y) const {
+    RockFolds const& folds = strata_.folds;
     if (folds.amplitude_m == 0.0) {
         return 0.0;
     }
     constexpr double bend = 0.12;     // of hinges, in wavelengths
     constexpr double bend_wave = 1.1; // [rad] per wavelength along the axis
-    Way const axis(folds.axis_deg);
-    double const along = axis.along(x, y);
-    double const across = axis.to_the_right(x, y) +
+    double const along = axis_.along(x, y);
+    double const across = axis_.to_the_right(x, y) +
                           bend * folds.wavelength_m * portable::sin(bend_wave * along / folds.wavelength_m + 0.4);
-    return folds.amplitude_m * portable::cos(2.0 * portable::pi * across / folds.wavelength_m) -
-           tangent(folds.plunge_deg) * along;
-}
-
-} // namespace
-
-Bed::Bed(Strata const& strata) : strata_(strata) {
-    check(strata);
-    Way const strike(strata.strike_deg);
-    east_ = -tangent(strata.dip_deg) * strike.north;
-    north_ = tangent(strata.dip_deg) * strike.east;
+    return folds.amplitude_m * portable::cos(2.0 * portable::pi * across / folds.wavelength_m) - plunge_ * along;
 }
 
 double Bed::height_m(double east_m, double north_m) const {
-    double z = strata_.base_m + east_ * east_m + north_ * north_m + folded(strata_.folds, east_m, north_m);
+    double z = strata_.base_m + east_ * east_m + north_ * north_m + folded(east_m, north_m);
     for (RockDome const& dome : strata_.domes) {
         double const x = east_m - dome.east_m;
         double const y = north_m - dome.north_m;
         z += dome.height_m * portable::exp(-(x * x + y * y) / (2.0 * dome.radius_m * dome.radius_m));
     }
-    for (RockFault const& fault : strata_.faults) {
-        if (Way(fault.strike_deg).to_the_right(east_m - fault.east_m, north_m - fault.north_m) > 0.0) {
+    for (std::size_t k = 0; k < fault_strike_.size(); ++k) {
+        RockFault const& fault = strata_.faults[k];
+        if (fault_strike_[k].to_the_right(east_m - fault.east_m, north_m - fault.north_m) > 0.0) {
             z -= fault.throw_m;
         }
     }
@@ -135,12 +136,23 @@ std::vector<StackedLayer> stack_of(Strata const& strata, double low_m, double hi
     return stack;
 }
 
-Raster<std::uint8_t> layers_at(Raster<float> const& dem, Strata const& strata, double shift_m, Run const& run) {
-    require_in("surface.layers_at", "number of layers", static_cast<double>(strata.layers.size()),
-               Range::between(1.0, 255.0));
+std::optional<std::size_t> cap_rock(Strata const& strata) {
+    for (std::size_t k = strata.layers.size(); !strata.repeats && k-- > 1;) {
+        if (strata.layers[k - 1].strength > strata.layers[k].strength) {
+            return k - 1;
+        }
+    }
+    return std::nullopt;
+}
+
+Vec2 from_centre(Grid const& grid, Vec2 place) {
+    return {place.x - (grid.west + 0.5 * static_cast<double>(grid.width) * grid.cell_m),
+            place.y - (grid.north - 0.5 * static_cast<double>(grid.height) * grid.cell_m)};
+}
+
+Raster<float> bed_heights(Grid const& grid, Strata const& strata, double shift_m, Run const& run) {
     Bed const bed(strata);
-    Grid const& grid = dem.grid();
-    Raster<float> place(grid, std::numeric_limits<float>::quiet_NaN()); // above the bed
+    Raster<float> heights(grid);
     parallel_ranges(run, grid.height, 16, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin; row < end; ++row) {
             double const north_m =
@@ -148,30 +160,53 @@ Raster<std::uint8_t> layers_at(Raster<float> const& dem, Strata const& strata, d
             for (std::int64_t col = 0; col < grid.width; ++col) {
                 double const east_m =
                     (static_cast<double>(col) - 0.5 * static_cast<double>(grid.width - 1)) * grid.cell_m;
-                Cell const c{col, row};
-                place[c] = static_cast<float>(static_cast<double>(dem[c]) + shift_m - bed.height_m(east_m, north_m));
+                heights[Cell{col, row}] = static_cast<float>(bed.height_m(east_m, north_m) - shift_m);
             }
         }
     });
-    float low = 0.0F;
-    float high = 0.0F;
-    for (float const s : place.values()) {
+    return heights;
+}
+
+Raster<std::uint8_t> layers_at(Raster<float> const& dem, Raster<float> const& bed, Strata const& strata,
+                               Run const& run) {
+    require_in("surface.layers_at", "number of layers", static_cast<double>(strata.layers.size()),
+               Range::between(1.0, 255.0));
+    require_same_grid(dem.grid(), bed.grid(), "surface.layers_at", "the terrain and the bed", "make both on one grid");
+    auto const place = [&](std::int64_t i) { return static_cast<double>(dem[i]) - static_cast<double>(bed[i]); };
+    double low = 0.0;
+    double high = 0.0;
+    for (std::int64_t i = 0; i < dem.cells(); ++i) {
+        double const s = place(i);
         low = s < low ? s : low;
         high = s > high ? s : high;
     }
-    std::vector<StackedLayer> const stack =
-        stack_of(strata, static_cast<double>(low) - 1.0, static_cast<double>(high) + 1.0);
-    constexpr float skin_m = 0.05F; // heights are floats, and rivers and banks are settled by less
-    Raster<std::uint8_t> layers(grid);
-    for (std::int64_t i = 0; i < place.cells(); ++i) {
-        if (!std::isnan(place[i])) {
-            auto const above =
-                std::upper_bound(stack.begin(), stack.end(), static_cast<double>(place[i] - skin_m),
-                                 [](double s, StackedLayer const& stacked) { return s < stacked.top_m; });
-            layers[i] = static_cast<std::uint8_t>(above->layer + 1);
+    std::vector<StackedLayer> const stack = stack_of(strata, low - 1.0, high + 1.0);
+    constexpr double skin_m = 0.05; // heights are floats, and rivers and banks are settled by less
+    Raster<std::uint8_t> layers(dem.grid());
+    parallel_ranges(run, dem.cells(), 16384, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t i = begin; i < end; ++i) {
+            if (double const s = place(i) - skin_m; !std::isnan(s)) {
+                auto const above =
+                    std::upper_bound(stack.begin(), stack.end(), s,
+                                     [](double at, StackedLayer const& stacked) { return at < stacked.top_m; });
+                layers[i] = static_cast<std::uint8_t>(above->layer + 1);
+            }
         }
-    }
+    });
     return layers;
+}
+
+std::vector<double> shares_of_layers(Raster<std::uint8_t> const& layers, std::size_t count) {
+    std::vector<std::int64_t> cells(count + 1, 0);
+    for (std::uint8_t const layer : layers.values()) {
+        ++cells.at(layer);
+    }
+    std::int64_t const with_data = layers.cells() - cells.front();
+    std::vector<double> shares;
+    for (std::size_t k = 1; k <= count; ++k) {
+        shares.push_back(with_data > 0 ? static_cast<double>(cells[k]) / static_cast<double>(with_data) : 0.0);
+    }
+    return shares;
 }
 
 } // namespace thalweg::surface

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/core/vec.hpp>
 
 // Idea: Layers of rock lie in a stack, and one surface tells how the stack is tilted, folded, domed
 // and broken: the bed B(x, y). A point's place in the stack is s = z - B(x, y), so that one number
@@ -86,9 +89,22 @@ public:
     double height_m(double east_m, double north_m) const;
 
 private:
+    /// A direction in plan.
+    struct Way {
+        double east = 0.0;
+        double north = 1.0;
+        double along(double x, double y) const { return x * east + y * north; }
+        double to_the_right(double x, double y) const { return x * north - y * east; }
+    };
+    static Way way_of(double deg); ///< clockwise from north
+    double folded(double x, double y) const;
+
     Strata strata_;
     double east_ = 0.0;  ///< rise of the bed per metre to the east
     double north_ = 0.0; ///< to the north
+    Way axis_;
+    double plunge_ = 0.0;           ///< tangent
+    std::vector<Way> fault_strike_; ///< by fault
 };
 
 /// A layer in the stack, or one of its repetitions.
@@ -97,19 +113,38 @@ struct StackedLayer {
     std::size_t layer = 0; ///< in Strata::layers
 };
 
+/// The cap rock: the topmost layer that is firmer than the one upon it.
+/// \return its number in Strata::layers; none: there is none, or the stack repeats
+std::optional<std::size_t> cap_rock(Strata const& strata);
+
 /// The layers that places between two heights above the bed may lie in, from the lowest up; the last one has no end.
 /// \param low_m,high_m [m] the place of a point is its height less the bed's
 /// \throws BadInput when more than 10 000 repetitions lie between them
 std::vector<StackedLayer> stack_of(Strata const& strata, double low_m, double high_m);
 
+/// Where a point in plan lies from a grid's centre, as Bed takes it.
+/// \param place [m] in the grid's reference system
+Vec2 from_centre(Grid const& grid, Vec2 place);
+
+/// The height of the bed in the cells of a grid.
+/// \param shift_m by which layers lie lower than they say: EquilibriumTerrain::strata_shift_m
+/// \return [m] by cell: bottom of the lowest layer, or of one repetition of it
+/// \throws BadParameter when a number of the stack is outside its range
+Raster<float> bed_heights(Grid const& grid, Strata const& strata, double shift_m = 0.0, Run const& run = {});
+
 /// The layer at the surface of terrain.
 /// \param dem [m] NaN: no data
+/// \param bed [m] as bed_heights(), on the same grid
 /// \param strata at least one layer, at most 255
-/// \param shift_m by which layers lie lower than they say: EquilibriumTerrain::strata_shift_m
 /// \return by cell: number of the layer from 1, the lowest; 0: no data. On the top of a layer that has been laid bare,
 /// that layer. The same for any number of threads.
-/// \throws BadParameter when a number of the stack is outside its range
-Raster<std::uint8_t> layers_at(Raster<float> const& dem, Strata const& strata, double shift_m = 0.0,
+/// \throws BadInput when the grids differ
+Raster<std::uint8_t> layers_at(Raster<float> const& dem, Raster<float> const& bed, Strata const& strata,
                                Run const& run = {});
+
+/// \param layers as layers_at()
+/// \param count of layers, at most 255
+/// \return by layer: its share of the cells with data
+std::vector<double> shares_of_layers(Raster<std::uint8_t> const& layers, std::size_t count);
 
 } // namespace thalweg::surface

@@ -27,7 +27,6 @@ struct LevelLayers {
     std::vector<LevelLayer> layers;                        ///< from the lowest up
     std::vector<float, LargePages<float>> bed;             ///< by cell of the level: height of the bed
     double most = std::numeric_limits<double>::infinity(); ///< greatest height of land
-    float steepest = 1.0F;                                 ///< greatest cap of a layer, relative to rock without layers
     float river_cap = 1.0F;                                ///< greatest tangent of given rivers
 
     bool empty() const { return layers.empty(); }
@@ -42,7 +41,6 @@ struct LevelLayers {
         for (float& height : bed) {
             height *= small;
         }
-        steepest *= small;
         river_cap *= small;
     }
 };
