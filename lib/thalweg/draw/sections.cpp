@@ -11,6 +11,7 @@
 
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/core/same_grid.hpp>
 #include <thalweg/draw/internal/canvas.hpp>
 #include <thalweg/draw/internal/map.hpp>
 #include <thalweg/draw/internal/sections.hpp>
@@ -187,22 +188,14 @@ Colour colour_of_layer(double strength) {
 /// Fills the ground below a line by layers of rock, and draws their contacts.
 class RockBelow {
 public:
-    /// \param low_m least height that is seen
-    RockBelow(Section const& section, LayersBelow const& below, double low_m) : section_(section) {
+    RockBelow(Section const& section, LayersBelow const& below) : section_(section), layers_(below.layers) {
         double const first = section.points.front().x;
         double const length = section.points.back().x - first;
         for (Vec2 const p : section.points) {
             double const share = length > 0.0 ? (p.x - first) / length : 0.0;
-            bed_.push_back(below.bed_m({section.begin.x + (section.end.x - section.begin.x) * share,
-                                        section.begin.y + (section.end.y - section.begin.y) * share}));
+            bed_.push_back(height_at(below.bed, {section.begin.x + (section.end.x - section.begin.x) * share,
+                                                 section.begin.y + (section.end.y - section.begin.y) * share}));
         }
-        double low = 0.0;
-        double high = 0.0;
-        for (std::size_t k = 0; k < bed_.size(); ++k) {
-            low = std::min(low, low_m - bed_[k]);
-            high = std::max(high, std::isfinite(section.points[k].y) ? section.points[k].y - bed_[k] : 0.0);
-        }
-        layers_ = below.layers(low, high);
     }
 
     void draw(Cairo* sheet, Plot const& plot, double line_width) const {
@@ -223,7 +216,7 @@ private:
     std::vector<std::pair<std::size_t, std::size_t>> runs() const {
         std::vector<std::pair<std::size_t, std::size_t>> out;
         for (std::size_t k = 0; k < section_.points.size(); ++k) {
-            if (!std::isfinite(section_.points[k].y)) {
+            if (!std::isfinite(section_.points[k].y + bed_[k])) {
                 continue;
             }
             if (out.empty() || out.back().second != k) {
@@ -277,7 +270,7 @@ private:
     }
 
     Section const& section_;
-    std::vector<LayerBelow> layers_;
+    std::vector<LayerBelow> const& layers_;
     std::vector<double> bed_; ///< by point
 };
 
@@ -294,9 +287,9 @@ void draw_panel(Cairo* sheet, Plot const& plot, Section const& section, LayersBe
         draw_text(sheet, {box.x - 0.7 * unit, y + 0.36 * unit}, number(z, scales.decimals), small, Anchor::end);
     }
     std::vector<std::vector<Vec2>> const stretches = stretches_of(section.points, plot);
-    bool const has_rock = below.bed_m && !section.points.empty();
+    bool const has_rock = below.bed.cells() > 0 && !section.points.empty();
     if (has_rock) {
-        RockBelow(section, below, plot.y_low).draw(sheet, plot, hair);
+        RockBelow(section, below).draw(sheet, plot, hair);
     }
     for (std::vector<Vec2> const& line : stretches) {
         draw_ground(sheet, line, box.bottom(), has_rock ? Colour{1.0, 1.0, 1.0, 0.0} : land, land_line, 0.13 * unit);
@@ -556,6 +549,10 @@ std::vector<Section> cut_sections(Raster<float> const& dem, ElevatedNetwork cons
 Picture sections(Raster<float> const& dem, ElevatedNetwork const* network, NetworkOrders const* orders,
                  SectionsParams const& params) {
     require_sections(network, orders, params);
+    if (params.below.bed.cells() > 0) {
+        require_same_grid(dem.grid(), params.below.bed.grid(), "draw.sections", "the DEM and the bed of the layers",
+                          "make both on one grid");
+    }
     std::vector<Section> const cuts = cut_sections(dem, network, orders, params.count);
     bool const across = cuts.front().kind == Section::Kind::river;
     MainStem const stem = across ? main_stem(network->planform, *orders) : MainStem{};
@@ -568,7 +565,7 @@ Picture sections(Raster<float> const& dem, ElevatedNetwork const* network, Netwo
         draw_panels(cairo, sheet, cuts, params.below);
         name_axes(cairo, sheet, across);
         draw_key(cairo, sheet.key, dem.grid(), stem, cuts, sheet.unit);
-        write_scales(cairo, sheet, dem.grid(), static_cast<bool>(params.below.bed_m));
+        write_scales(cairo, sheet, dem.grid(), params.below.bed.cells() > 0);
     });
 }
 

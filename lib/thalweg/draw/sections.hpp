@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -50,9 +49,8 @@ struct LayerBelow {
 
 /// Layers of rock below the ground.
 struct LayersBelow {
-    std::function<double(Vec2)> bed_m; ///< [m] height of the bed at a place; empty: there are no layers
-    /// layers from the lowest up that lie between two heights above the bed [m]
-    std::function<std::vector<LayerBelow>(double, double)> layers;
+    Raster<float> bed = {}; ///< [m] on the DEM's grid: what the layers lie on; without cells: there are none
+    std::vector<LayerBelow> layers = {}; ///< from the lowest up, as far as the terrain reaches
 };
 
 /// The colour of a layer of rock on maps and sections: the firmer, the darker.

@@ -163,20 +163,18 @@ double round_interval(double relief_m) {
     return step;
 }
 
-draw::LayersBelow layers_below(recipe::Recipe const& recipe, Grid const& grid, double shift_m) {
-    surface::Strata const strata = make::strata_of(recipe, grid);
+draw::LayersBelow layers_below(recipe::Recipe const& recipe, Raster<float> const& dem, double shift_m) {
+    surface::Strata const strata = make::strata_of(recipe, dem.grid());
     draw::LayersBelow below;
-    below.bed_m = [bed = surface::Bed(strata), grid, shift_m](Vec2 place) {
-        Vec2 const at = surface::from_centre(grid, place);
-        return bed.height_m(at.x, at.y) - shift_m;
-    };
-    below.layers = [strata](double low_m, double high_m) {
-        std::vector<draw::LayerBelow> layers;
-        for (surface::StackedLayer const& stacked : surface::stack_of(strata, low_m, high_m)) {
-            layers.push_back({stacked.top_m, strata.layers[stacked.layer].strength});
-        }
-        return layers;
-    };
+    below.bed = surface::bed_heights(dem.grid(), strata, shift_m);
+    std::optional<std::pair<double, double>> const heights = height_range(dem);
+    auto const [low_bed, high_bed] = std::minmax_element(below.bed.values().begin(), below.bed.values().end());
+    double const margin_m = heights ? heights->second - heights->first : 0.0; // panels reach somewhat lower
+    double const low_m = heights ? heights->first - margin_m - static_cast<double>(*high_bed) : 0.0;
+    double const high_m = heights ? heights->second - static_cast<double>(*low_bed) : 0.0;
+    for (surface::StackedLayer const& stacked : surface::stack_of(strata, low_m, high_m)) {
+        below.layers.push_back({stacked.top_m, strata.layers[stacked.layer].strength});
+    }
     return below;
 }
 

@@ -43,10 +43,10 @@ struct Scene {
 };
 
 /// The layers of rock of a recipe, as sections show them.
-/// \param grid of the terrain
+/// \param dem [m] the terrain
 /// \param shift_m by which they lie lower than the recipe says
 /// \internal
-draw::LayersBelow layers_below(recipe::Recipe const& recipe, Grid const& grid, double shift_m);
+draw::LayersBelow layers_below(recipe::Recipe const& recipe, Raster<float> const& dem, double shift_m);
 
 /// The appearance of pictures; each picture chooses what is not set.
 struct Look {

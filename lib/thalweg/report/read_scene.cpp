@@ -168,7 +168,7 @@ void read_rock(Scene& scene, recipe::Recipe const& recipe, std::string const& re
     auto const json = bounded_json<nlohmann::json>(report, {.most_keys = std::size_t{1} << 20U});
     auto const made = json.is_object() && json.contains("equilibrium") ? json["equilibrium"] : nlohmann::json();
     if (scene.dem && made.is_object() && made.contains("strata_shift_m") && made["strata_shift_m"].is_number()) {
-        scene.rock = layers_below(recipe, scene.dem->grid(), made["strata_shift_m"].get<double>());
+        scene.rock = layers_below(recipe, *scene.dem, made["strata_shift_m"].get<double>());
     }
 }
 

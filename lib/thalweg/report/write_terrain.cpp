@@ -312,7 +312,7 @@ draw::Picture sections_of(make::MakeResult const& t, std::string const& title) {
     draw::SectionsParams sections;
     sections.title = title;
     if (make::has_layers(t.recipe, t.terrain.ground)) {
-        sections.below = layers_below(t.recipe, t.terrain.grid, t.terrain.ground.equilibrium()->strata_shift_m);
+        sections.below = layers_below(t.recipe, t.terrain.ground.dem, t.terrain.ground.equilibrium()->strata_shift_m);
     }
     return draw::sections(t.terrain.ground.dem, network_of(t), orders_of(t), sections);
 }
